@@ -1,0 +1,45 @@
+# Build helpers: libraries per source folder, embedded files, embedded kernels.
+
+add_library(lavalight_options INTERFACE)
+target_compile_options(lavalight_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Werror)
+target_include_directories(lavalight_options INTERFACE ${CMAKE_SOURCE_DIR}/src ${CMAKE_SOURCE_DIR}/shaders)
+
+# lavalight_library(NAME DEPS ... [PRIVATE_DEPS ...] [EXCLUDE file...]): all of src/NAME as lavalight_NAME.
+function(lavalight_library name)
+    cmake_parse_arguments(ARG "" "" "DEPS;PRIVATE_DEPS;EXCLUDE" ${ARGN})
+    file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/${name}/*.cpp ${CMAKE_SOURCE_DIR}/src/${name}/*.h)
+    foreach(file ${ARG_EXCLUDE})
+        list(REMOVE_ITEM sources ${CMAKE_SOURCE_DIR}/src/${name}/${file})
+    endforeach()
+    add_library(lavalight_${name} STATIC ${sources})
+    set_target_properties(lavalight_${name} PROPERTIES LINKER_LANGUAGE CXX)
+    target_link_libraries(lavalight_${name} PUBLIC lavalight_options ${ARG_DEPS} PRIVATE ${ARG_PRIVATE_DEPS})
+endfunction()
+
+# lavalight_embed_files(LIB NAMESPACE ns FILES f...): each file's bytes, found by embedded_files.h.
+function(lavalight_embed_files lib)
+    cmake_parse_arguments(ARG "" "NAMESPACE" "FILES" ${ARGN})
+    set(out ${CMAKE_BINARY_DIR}/generated/${ARG_NAMESPACE}_files.cpp)
+    set(inputs ${ARG_FILES})
+    list(TRANSFORM inputs PREPEND ${CMAKE_SOURCE_DIR}/)
+    add_custom_command(OUTPUT ${out}
+        COMMAND ${CMAKE_COMMAND} -DOUT=${out} -DNAMESPACE=${ARG_NAMESPACE} "-DFILES=${inputs}"
+                -P ${CMAKE_SOURCE_DIR}/cmake/embed_files.cmake
+        DEPENDS ${inputs} ${CMAKE_SOURCE_DIR}/cmake/embed_files.cmake VERBATIM)
+    target_sources(lavalight_${lib} PRIVATE ${out})
+endfunction()
+
+# lavalight_embed_kernels(TARGET NAMESPACE ns FILES k.comp...): compiles kernels with the program's own compiler,
+# so that a shader error fails the build, and embeds the SPIR-V as `ns::find(name)`.
+function(lavalight_embed_kernels target)
+    cmake_parse_arguments(ARG "" "NAMESPACE" "FILES" ${ARGN})
+    set(dir ${CMAKE_BINARY_DIR}/generated/${target})
+    set(out ${dir}/${ARG_NAMESPACE}.cpp)
+    file(GLOB_RECURSE includes CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/shaders/*.glsl ${CMAKE_SOURCE_DIR}/shaders/*.h)
+    add_custom_command(OUTPUT ${out} ${dir}/${ARG_NAMESPACE}.h
+        COMMAND embed_kernels --include ${CMAKE_SOURCE_DIR}/shaders --namespace ${ARG_NAMESPACE}
+                --out ${dir} ${ARG_FILES}
+        DEPENDS embed_kernels ${ARG_FILES} ${includes} VERBATIM)
+    target_sources(${target} PRIVATE ${out})
+    target_include_directories(${target} PUBLIC ${dir})
+endfunction()

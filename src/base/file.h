@@ -1,0 +1,25 @@
+// Whole files in and out. Writing is atomic: a file is whole or absent.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+
+namespace lavalight {
+
+// The bytes of a regular file. Throws Error for a missing file, a directory, a device or an unreadable file.
+[[nodiscard]] std::string readFile(const std::filesystem::path& path);
+
+// Calls `write` with the name of a new file in the same folder, then renames that file to `path`. If `write` or the
+// renaming throws, nothing is left behind and an existing `path` is untouched. Throws Error.
+void writeFileAtomically(const std::filesystem::path& path,
+                         const std::function<void(const std::filesystem::path&)>& write);
+
+// The same for bytes at hand.
+void writeFileAtomically(const std::filesystem::path& path, std::string_view bytes);
+
+// Throws Error unless a file can be created at `path`: asked before a long render rather than after it.
+void requireWritable(const std::filesystem::path& path);
+
+} // namespace lavalight

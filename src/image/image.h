@@ -1,0 +1,36 @@
+// Images in memory.
+#pragma once
+
+#include <cassert>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+namespace lavalight {
+
+// Linear Rec. 709 pixels, row by row from the top.
+struct Image {
+    uint32_t width = 0;
+    uint32_t height = 0;
+    std::vector<glm::vec3> pixels;
+
+    Image() = default;
+    Image(uint32_t w, uint32_t h) : width(w), height(h), pixels(size_t{w} * h, glm::vec3(0.0f)) {}
+
+    [[nodiscard]] const glm::vec3& at(uint32_t x, uint32_t y) const {
+        assert(x < width && y < height);
+        return pixels[size_t{y} * width + x];
+    }
+};
+
+// What a render leaves behind: for each pixel the mean radiance, the variance of that mean, and how many samples it
+// rests on.
+struct Rendering {
+    Image radiance;
+    Image variance;                     // of the mean, per channel; 0 where fewer than two samples were taken
+    std::vector<uint32_t> sampleCounts; // row by row from the top
+};
+
+} // namespace lavalight

@@ -1,0 +1,75 @@
+// A scene as the renderer sees it: plain data in world space, whatever file it came from.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+namespace lavalight {
+
+struct Material {
+    std::string name;
+    glm::vec3 baseColor{1.0f}; // linear Rec. 709
+    float metallic = 1.0f;
+    float roughness = 1.0f;    // perceptual; alpha = roughness^2
+    glm::vec3 emission{0.0f};  // radiance, W/(sr m^2) per channel, towards the front (both sides if doubleSided)
+    float ior = 1.5f;
+    float specular = 1.0f;     // KHR_materials_specular; 0 makes the dielectric a pure Lambert surface
+    glm::vec3 specularColor{1.0f};
+    bool doubleSided = false;
+};
+
+// One primitive of one node, baked to world space. The front of a triangle is where its vertices turn
+// counter-clockwise (mirroring transforms have been undone by swapping two vertices).
+struct Mesh {
+    std::string name;
+    uint32_t material = 0; // index into Scene::materials
+    std::vector<glm::vec3> positions;
+    std::vector<glm::vec3> normals; // unit length, one per position; empty: flat shaded
+    std::vector<glm::uvec3> triangles;
+};
+
+enum class Projection { perspective, orthographic };
+
+struct Camera {
+    std::string name;
+    Projection projection = Projection::perspective;
+    glm::vec3 position{0.0f};
+    glm::vec3 right{1.0f, 0.0f, 0.0f}; // orthonormal, right-handed: right x up = -forward
+    glm::vec3 up{0.0f, 1.0f, 0.0f};
+    glm::vec3 forward{0.0f, 0.0f, -1.0f};
+    float verticalFov = 0.8f;          // perspective: full angle, radians
+    float halfHeight = 1.0f;           // orthographic: glTF's ymag, metres
+    std::optional<float> aspect;       // width / height that the file asks for
+};
+
+struct Bounds {
+    glm::vec3 lower{0.0f};
+    glm::vec3 upper{0.0f};
+    [[nodiscard]] glm::vec3 center() const { return 0.5f * (lower + upper); }
+    [[nodiscard]] float radius() const { return 0.5f * glm::length(upper - lower); }
+};
+
+struct Scene {
+    std::string source; // file or built-in name
+    std::vector<Mesh> meshes;
+    std::vector<Material> materials; // never empty: meshes without one use a default material
+    std::vector<Camera> cameras;     // never empty after import: one that frames the scene stands in
+    glm::vec3 environment{0.0f};     // constant radiance from every direction that hits nothing
+    Bounds bounds;
+    std::vector<std::string> warnings;          // what was not understood, one line each, with names
+    std::vector<std::string> ignoredExtensions; // exact names; they enter the bias ledger
+    std::vector<std::string> extensionsUsed;    // exact names as the file lists them
+
+    [[nodiscard]] uint64_t triangleCount() const {
+        uint64_t count = 0;
+        for (const Mesh& mesh : meshes)
+            count += mesh.triangles.size();
+        return count;
+    }
+};
+
+} // namespace lavalight
