@@ -6,8 +6,8 @@
 
 namespace lavalight {
 
-// Thrown with a message that names the operation, the object and, where there is one, the remedy. Caught once, in
-// main: one line on stderr, exit 1.
+// Thrown with a message that names the operation, the object and, where there is one, the remedy. Caught
+// once, in main: one line on stderr, exit 1.
 class Error : public std::runtime_error {
   public:
     explicit Error(const std::string& message) : std::runtime_error(message) {}

@@ -14,74 +14,113 @@
 namespace lavalight {
 namespace {
 
+namespace fs = std::filesystem;
+
+[[noreturn]] void throwUnreadable(const fs::path& path, const std::string& reason) {
+    throw Error(fmt::format("cannot read {}: {}", path.string(), reason));
+}
+
+[[noreturn]] void throwUnwritable(const fs::path& path, const std::string& reason) {
+    throw Error(fmt::format("cannot write {}: {}", path.string(), reason));
+}
+
 // Unique in this process and among processes: several renders may write into one folder.
-std::filesystem::path temporaryName(const std::filesystem::path& path) {
+fs::path temporaryName(const fs::path& path) {
     static std::atomic<unsigned> counter{0};
-    std::filesystem::path name = path;
+    fs::path name = path;
     name += fmt::format(".{}-{}.part", ::getpid(), counter++);
     return name;
 }
 
-void removeQuietly(const std::filesystem::path& path) {
-    std::error_code ignored;
-    std::filesystem::remove(path, ignored);
+// Removes the unfinished file unless it was renamed to its final name.
+class TemporaryFile {
+  public:
+    explicit TemporaryFile(const fs::path& target) : path_(temporaryName(target)) {}
+    ~TemporaryFile() {
+        std::error_code ignored;
+        fs::remove(path_, ignored);
+    }
+    TemporaryFile(const TemporaryFile&) = delete;
+    TemporaryFile& operator=(const TemporaryFile&) = delete;
+
+    [[nodiscard]] const fs::path& path() const { return path_; }
+
+  private:
+    fs::path path_;
+};
+
+void requireReplaceable(const fs::path& path) {
+    if (!path.has_filename())
+        throwUnwritable(path, "no file name given");
+    std::error_code code;
+    const auto status = fs::status(path, code);
+    if (fs::is_directory(status))
+        throwUnwritable(path, "it is a directory");
+    if (fs::exists(status) && !fs::is_regular_file(status))
+        throwUnwritable(path, "not a regular file");
+    const fs::path folder = path.parent_path();
+    if (!folder.empty() && fs::status(folder, code).type() == fs::file_type::not_found)
+        throwUnwritable(path, fmt::format("there is no folder {}", folder.string()));
 }
 
 } // namespace
 
-std::string readFile(const std::filesystem::path& path) {
+void requireRegularFile(const fs::path& path) {
+    if (path.empty())
+        throwUnreadable("\"\"", "no file name given");
     std::error_code code;
-    const auto status = std::filesystem::status(path, code);
-    if (!std::filesystem::exists(status))
-        throw Error(fmt::format("cannot read {}: no such file", path.string()));
-    if (std::filesystem::is_directory(status))
-        throw Error(fmt::format("cannot read {}: it is a directory", path.string()));
-    if (!std::filesystem::is_regular_file(status))
-        throw Error(fmt::format("cannot read {}: not a regular file", path.string()));
+    const auto status = fs::status(path, code);
+    if (status.type() == fs::file_type::not_found)
+        throwUnreadable(path, "no such file");
+    if (!fs::status_known(status))
+        throwUnreadable(path, code.message());
+    if (fs::is_directory(status))
+        throwUnreadable(path, "it is a directory");
+    if (!fs::is_regular_file(status))
+        throwUnreadable(path, "not a regular file");
+}
+
+std::string readFile(const fs::path& path) {
+    requireRegularFile(path);
     std::ifstream in(path, std::ios::binary);
     if (!in)
-        throw Error(fmt::format("cannot read {}: {}", path.string(), std::strerror(errno)));
-    std::string bytes(std::filesystem::file_size(path), '\0');
+        throwUnreadable(path, std::strerror(errno));
+    std::error_code code;
+    const auto size = fs::file_size(path, code);
+    if (code)
+        throwUnreadable(path, code.message());
+    std::string bytes(size, '\0');
     in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
     if (static_cast<size_t>(in.gcount()) != bytes.size())
-        throw Error(fmt::format("cannot read {}: the file ended early", path.string()));
+        throwUnreadable(path, "the file ended early");
     return bytes;
 }
 
-void writeFileAtomically(const std::filesystem::path& path,
-                         const std::function<void(const std::filesystem::path&)>& write) {
-    const std::filesystem::path part = temporaryName(path);
-    try {
-        write(part);
-        std::filesystem::rename(part, path);
-    } catch (const std::filesystem::filesystem_error& error) {
-        removeQuietly(part);
-        throw Error(fmt::format("cannot write {}: {}", path.string(), error.code().message()));
-    } catch (...) {
-        removeQuietly(part);
-        throw;
-    }
+void writeFileAtomically(const fs::path& path, const std::function<void(const fs::path&)>& write) {
+    requireReplaceable(path);
+    const TemporaryFile part(path);
+    write(part.path());
+    std::error_code code;
+    fs::rename(part.path(), path, code);
+    if (code)
+        throwUnwritable(path, code.message());
 }
 
-void writeFileAtomically(const std::filesystem::path& path, std::string_view bytes) {
-    writeFileAtomically(path, [&](const std::filesystem::path& part) {
+void writeFileAtomically(const fs::path& path, std::string_view bytes) {
+    writeFileAtomically(path, [&](const fs::path& part) {
         std::ofstream out(part, std::ios::binary);
         out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
         out.close();
         if (!out)
-            throw Error(fmt::format("cannot write {}: {}", path.string(), std::strerror(errno)));
+            throwUnwritable(path, std::strerror(errno));
     });
 }
 
-void requireWritable(const std::filesystem::path& path) {
-    if (std::filesystem::is_directory(path))
-        throw Error(fmt::format("cannot write {}: it is a directory", path.string()));
-    const std::filesystem::path part = temporaryName(path);
-    std::ofstream probe(part, std::ios::binary);
-    if (!probe)
-        throw Error(fmt::format("cannot write {}: {}", path.string(), std::strerror(errno)));
-    probe.close();
-    removeQuietly(part);
+void requireWritable(const fs::path& path) {
+    requireReplaceable(path);
+    const TemporaryFile part(path);
+    if (!std::ofstream(part.path(), std::ios::binary))
+        throwUnwritable(path, std::strerror(errno));
 }
 
 } // namespace lavalight

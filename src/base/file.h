@@ -8,11 +8,15 @@
 
 namespace lavalight {
 
+// Throws Error unless `path` names a regular file: for readers that open the file themselves.
+void requireRegularFile(const std::filesystem::path& path);
+
 // The bytes of a regular file. Throws Error for a missing file, a directory, a device or an unreadable file.
 [[nodiscard]] std::string readFile(const std::filesystem::path& path);
 
-// Calls `write` with the name of a new file in the same folder, then renames that file to `path`. If `write` or the
-// renaming throws, nothing is left behind and an existing `path` is untouched. Throws Error.
+// Calls `write` with the name of a new file in the same folder, then renames that file to `path`. If `write`
+// or the renaming throws, nothing is left behind and an existing `path` is untouched. Only regular files are
+// replaced: a rename over a device such as /dev/null would do lasting damage. Throws Error.
 void writeFileAtomically(const std::filesystem::path& path,
                          const std::function<void(const std::filesystem::path&)>& write);
 
@@ -20,6 +24,7 @@ void writeFileAtomically(const std::filesystem::path& path,
 void writeFileAtomically(const std::filesystem::path& path, std::string_view bytes);
 
 // Throws Error unless a file can be created at `path`: asked before a long render rather than after it.
+// Leaves nothing behind.
 void requireWritable(const std::filesystem::path& path);
 
 } // namespace lavalight

@@ -7,7 +7,8 @@ namespace lavalight {
 
 enum class LogLevel { quiet, normal };
 
-// Sends spdlog's messages to stderr as "lavalight: warning: text"; quiet keeps errors only. Call once, from main.
+// Sends spdlog's messages to stderr as "lavalight: warning: text"; quiet keeps errors only. Call once, from
+// main.
 void configureLog(LogLevel level);
 
 } // namespace lavalight

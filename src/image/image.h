@@ -10,6 +10,9 @@
 
 namespace lavalight {
 
+// Pixels a side that images may have, in memory and in files.
+inline constexpr uint32_t kMaxImageSide = 16384;
+
 // Linear Rec. 709 pixels, row by row from the top.
 struct Image {
     uint32_t width = 0;

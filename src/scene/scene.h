@@ -14,10 +14,11 @@ struct Material {
     std::string name;
     glm::vec3 baseColor{1.0f}; // linear Rec. 709
     float metallic = 1.0f;
-    float roughness = 1.0f;    // perceptual; alpha = roughness^2
-    glm::vec3 emission{0.0f};  // radiance, W/(sr m^2) per channel, towards the front (both sides if doubleSided)
-    float ior = 1.5f;
-    float specular = 1.0f;     // KHR_materials_specular; 0 makes the dielectric a pure Lambert surface
+    float roughness = 1.0f; // perceptual; alpha = roughness^2
+    // Radiance, W/(sr m^2) per channel, towards the front (both sides if doubleSided).
+    glm::vec3 emission{0.0f};
+    float ior = 1.5f;      // from 1, or 0: KHR_materials_ior's special value, which makes F0 1
+    float specular = 1.0f; // KHR_materials_specular; 0 makes the dielectric a pure Lambert surface
     glm::vec3 specularColor{1.0f};
     bool doubleSided = false;
 };
@@ -41,9 +42,9 @@ struct Camera {
     glm::vec3 right{1.0f, 0.0f, 0.0f}; // orthonormal, right-handed: right x up = -forward
     glm::vec3 up{0.0f, 1.0f, 0.0f};
     glm::vec3 forward{0.0f, 0.0f, -1.0f};
-    float verticalFov = 0.8f;          // perspective: full angle, radians
-    float halfHeight = 1.0f;           // orthographic: glTF's ymag, metres
-    std::optional<float> aspect;       // width / height that the file asks for
+    float verticalFov = 0.8f;    // perspective: full angle, radians
+    float halfHeight = 1.0f;     // orthographic: glTF's ymag, metres
+    std::optional<float> aspect; // width / height that the file asks for
 };
 
 struct Bounds {
@@ -52,6 +53,10 @@ struct Bounds {
     [[nodiscard]] glm::vec3 center() const { return 0.5f * (lower + upper); }
     [[nodiscard]] float radius() const { return 0.5f * glm::length(upper - lower); }
 };
+
+// The most triangles of a scene: three 16-byte texels each must fit the 134,217,728 elements that texel
+// buffers have on the devices we know.
+constexpr uint64_t kMostTriangles = 134'217'728 / 3;
 
 struct Scene {
     std::string source; // file or built-in name

@@ -1,0 +1,14 @@
+// Lambert lobe: sample, eval, pdf. Coupling to the layer above is the caller's.
+#include "lib/warp.glsl"
+
+vec3 sampleDiffuse(vec2 u) {
+    return squareToCosineHemisphere(u);
+}
+
+vec3 evalDiffuse(vec3 color, vec3 wi) {
+    return color * (kInvPi * max(0.0, wi.z));
+}
+
+float pdfDiffuse(vec3 wi) {
+    return squareToCosineHemispherePdf(wi.z);
+}

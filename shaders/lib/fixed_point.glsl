@@ -1,0 +1,41 @@
+// Exact sums: floats added to wide fixed-point integers built from 32-bit words, lowest word first.
+
+struct Shifted {
+    uint low;  // the 24-bit mantissa, shifted, spans at most two words
+    uint high;
+    uint word; // index of the word that `low` belongs to
+    bool overflows;
+};
+
+// x >= 0 (finite) in units of 2^lowestExponent, rounded to nearest, for a sum of `words` words.
+Shifted toFixed(float x, int lowestExponent, uint words) {
+    const uint bits = floatBitsToUint(x);
+    const uint exponent = bits >> 23u;
+    const uint mantissa = exponent == 0u ? bits & 0x7fffffu : (bits & 0x7fffffu) | 0x800000u;
+    // x = mantissa * 2^(max(exponent, 1) - 150)
+    const int shift = int(max(exponent, 1u)) - 150 - lowestExponent;
+    if (shift < 0) {
+        const uint down = uint(min(-shift, 31));
+        return Shifted((mantissa + (1u << (down - 1u))) >> down, 0u, 0u, false);
+    }
+    const uint word = uint(shift) / 32u;
+    const uint up = uint(shift) % 32u;
+    const uint high = up == 0u ? 0u : mantissa >> (32u - up);
+    const bool overflows = word >= words || (word == words - 1u && high != 0u);
+    return Shifted(mantissa << up, high, word, overflows);
+}
+
+// The word of `s` at position `index`.
+uint wordOf(Shifted s, uint index) {
+    return index == s.word ? s.low : (index == s.word + 1u ? s.high : 0u);
+}
+
+// a + b + carry; the carry out of it goes back into `carry`.
+uint addWithCarry(uint a, uint b, inout uint carry) {
+    uint first;
+    uint second;
+    const uint sum = uaddCarry(a, b, first);
+    const uint total = uaddCarry(sum, carry, second);
+    carry = first + second;
+    return total;
+}

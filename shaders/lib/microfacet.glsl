@@ -1,0 +1,46 @@
+// GGX microfacets with Smith's height-correlated masking and shadowing; local frame, z is the shading normal.
+// Based on: Walter et al., "Microfacet Models for Refraction", EGSR 2007; Heitz, "Understanding the Masking-Shadowing
+// Function", JCGT 3(2), 2014; Dupuy, Benyoub, "Sampling Visible GGX Normals with Spherical Caps", HPG 2023.
+#include "lib/constants.glsl"
+
+// Below this alpha the lobe is a mirror: at 1e-3 it is 0.1 degrees wide, and D's peak of 1/(pi alpha^2) would
+// cost more noise than the width is worth.
+const float kSmoothAlpha = 1e-3;
+
+// Walter 2007, eq. 33, with m a unit vector: D(m).
+float ggxD(vec3 m, float alpha) {
+    const float a2 = alpha * alpha;
+    // 1 - (1 - a2) mz^2, written without cancellation near the peak.
+    const float k = a2 * m.z * m.z + m.x * m.x + m.y * m.y;
+    return a2 * kInvPi / (k * k);
+}
+
+// Smith's Lambda; Heitz 2014, eq. 72.
+float ggxLambda(vec3 w, float alpha) {
+    const float tan2 = (w.x * w.x + w.y * w.y) / (w.z * w.z);
+    return 0.5 * (sqrt(1.0 + alpha * alpha * tan2) - 1.0);
+}
+
+float ggxG1(vec3 w, float alpha) {
+    return 1.0 / (1.0 + ggxLambda(w, alpha));
+}
+
+// Height-correlated; Heitz 2014, eq. 99.
+float ggxG2(vec3 wo, vec3 wi, float alpha) {
+    return 1.0 / (1.0 + ggxLambda(wo, alpha) + ggxLambda(wi, alpha));
+}
+
+// Half vectors as they are visible from wo (wo.z > 0). Dupuy, Benyoub 2023, listing 3.
+vec3 squareToVisibleNormal(vec2 u, vec3 wo, float alpha) {
+    const vec3 v = normalize(vec3(alpha * wo.xy, wo.z));
+    const float phi = 2.0 * kPi * u.x;
+    const float z = (1.0 - u.y) * (1.0 + v.z) - v.z;
+    const float sinTheta = sqrt(clamp(1.0 - z * z, 0.0, 1.0));
+    const vec3 h = vec3(sinTheta * cos(phi), sinTheta * sin(phi), z) + v;
+    return normalize(vec3(alpha * h.xy, max(h.z, 1e-7)));
+}
+
+// Density of the half vector m per solid angle: D_v(m) = G1(wo) D(m) |wo.m| / wo.z.
+float squareToVisibleNormalPdf(vec3 m, vec3 wo, float alpha) {
+    return ggxG1(wo, alpha) * ggxD(m, alpha) * max(0.0, dot(wo, m)) / wo.z;
+}

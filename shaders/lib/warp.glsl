@@ -1,0 +1,46 @@
+// Warps from the unit square, each with its density.
+#include "lib/constants.glsl"
+
+// Disk of radius 1, equal areas, small distortion.
+// Shirley, Chiu, "A Low Distortion Map Between Disk and Square", JGT 2(3), 1997.
+vec2 squareToDisk(vec2 u) {
+    const vec2 p = 2.0 * u - 1.0;
+    if (p.x == 0.0 && p.y == 0.0)
+        return vec2(0.0);
+    const bool isWide = abs(p.x) > abs(p.y);
+    const float radius = isWide ? p.x : p.y;
+    const float angle = isWide ? 0.25 * kPi * (p.y / p.x) : 0.5 * kPi - 0.25 * kPi * (p.x / p.y);
+    return radius * vec2(cos(angle), sin(angle));
+}
+
+float squareToDiskPdf() {
+    return kInvPi;
+}
+
+// Hemisphere around +z by the cosine: Malley's method, the disk lifted to the hemisphere.
+vec3 squareToCosineHemisphere(vec2 u) {
+    const vec2 d = squareToDisk(u);
+    return vec3(d, sqrt(max(0.0, 1.0 - dot(d, d))));
+}
+
+float squareToCosineHemispherePdf(float cosTheta) {
+    return max(0.0, cosTheta) * kInvPi;
+}
+
+// Barycentrics (b1, b2) uniform over a triangle.
+// Heitz, "A Low-Distortion Map Between Triangle and Square", 2019.
+vec2 squareToTriangle(vec2 u) {
+    if (u.y > u.x) {
+        u.x *= 0.5;
+        u.y -= u.x;
+    } else {
+        u.y *= 0.5;
+        u.x -= u.y;
+    }
+    return u;
+}
+
+// Per area, for a triangle of that area.
+float squareToTrianglePdfArea(float area) {
+    return 1.0 / area;
+}

@@ -1,0 +1,16 @@
+// Frame parameters, the range of the wave, and where a slot belongs in the image.
+#include "lib/random.glsl"
+#include "shared/bindings.h"
+#include "shared/frame.h"
+#include "shared/wavefront.h"
+
+layout(set = 0, binding = BINDING_FRAME, std430) readonly buffer Frame { FrameParameters frame; };
+layout(push_constant) uniform Push { WaveRange range; };
+
+uint pixelOfSlot(uint slot) {
+    return range.firstPixel + slot % range.pixelCount;
+}
+
+SampleKey keyOfSlot(uint slot, uint vertex) {
+    return SampleKey(frame.seed, pixelOfSlot(slot), range.firstSample + slot / range.pixelCount, vertex);
+}

@@ -1,0 +1,52 @@
+// From a hit to the geometry of the surface there.
+#include "lib/octahedral.glsl"
+#include "lib/ray_offset.glsl"
+#include "scene/leaf_triangle.glsl"
+#include "shared/bindings.h"
+#include "shared/scene.h"
+#include "shared/wavefront.h"
+
+layout(set = 0, binding = BINDING_TRIANGLE_NORMALS) uniform usamplerBuffer triangleNormals;
+
+struct Interaction {
+    vec3 p;
+    vec3 pError;   // bound on the error of p per component
+    vec3 ng;       // geometric normal, unit length, on the side of wo
+    vec3 n;        // shading normal, unit length, flipped with ng
+    bool isFront;  // wo is on the triangle's front
+    float area;
+    uint emitter;  // or kNoEmitter
+    uint material;
+};
+
+vec3 shadingNormal(LeafTriangle triangle, vec3 b, vec3 ng) {
+    if ((triangle.material & kFlatBit) != 0u)
+        return ng;
+    const uvec4 packedNormals = texelFetch(triangleNormals, int(triangle.triangle));
+    const vec3 n = b.x * decodeOctahedral(packedNormals.x) + b.y * decodeOctahedral(packedNormals.y) +
+                   b.z * decodeOctahedral(packedNormals.z);
+    const float length2 = dot(n, n);
+    return length2 > 1e-12 ? n * inversesqrt(length2) : ng; // opposite corner normals cancel: keep the plane's
+}
+
+// wo: unit vector from the hit back along the ray.
+Interaction makeInteraction(Hit hit, vec3 wo) {
+    const LeafTriangle triangle = loadLeafTriangle(hit.leafTriangle);
+    const vec3 b = vec3(1.0 - hit.barycentrics.x - hit.barycentrics.y, hit.barycentrics);
+    const vec3 normal = cross(triangle.v1 - triangle.v0, triangle.v2 - triangle.v0);
+    const float twiceArea = length(normal);
+    Interaction i;
+    i.p = b.x * triangle.v0 + b.y * triangle.v1 + b.z * triangle.v2;
+    i.pError = hitPointError(b, triangle.v0, triangle.v1, triangle.v2);
+    i.ng = normal / twiceArea;
+    i.area = 0.5 * twiceArea;
+    i.isFront = dot(i.ng, wo) > 0.0;
+    i.n = shadingNormal(triangle, b, i.ng);
+    if (!i.isFront) {
+        i.ng = -i.ng;
+        i.n = -i.n;
+    }
+    i.emitter = triangle.emitter;
+    i.material = triangle.material & kMaterialMask;
+    return i;
+}

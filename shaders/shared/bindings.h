@@ -1,0 +1,29 @@
+// Binding numbers of descriptor set 0, one per buffer of the renderer: a kernel declares the ones it uses.
+#ifndef LAVALIGHT_SHARED_BINDINGS_H
+#define LAVALIGHT_SHARED_BINDINGS_H
+
+// Scene, read only: RGBA32UI texel buffers (the fastest reads measured on lavapipe).
+#define BINDING_BVH_NODES 0
+#define BINDING_LEAF_TRIANGLES 1
+#define BINDING_TRIANGLE_NORMALS 2
+#define BINDING_MATERIALS 3
+#define BINDING_EMITTERS 4
+#define BINDING_ALBEDO_TABLE 5
+
+// Wave state, one element per path slot.
+#define BINDING_FRAME 8
+#define BINDING_RAYS 9
+#define BINDING_HITS 10
+#define BINDING_PATHS 11
+#define BINDING_SHADOW_RAYS 12
+#define BINDING_QUEUES 13
+#define BINDING_COUNTERS 14
+#define BINDING_DISPATCH_SIZES 15
+
+// Film of one band and what happened to it.
+#define BINDING_FILM 16
+#define BINDING_TALLIES 17
+
+#define BINDING_ALBEDO_OUT 18
+
+#endif

@@ -1,0 +1,70 @@
+// Path state and queues of a wave: records that the kernels hand to each other.
+#ifndef LAVALIGHT_SHARED_WAVEFRONT_H
+#define LAVALIGHT_SHARED_WAVEFRONT_H
+
+#include "shared/types.h"
+
+LAVALIGHT_SHARED_BEGIN
+
+SHARED_CONST uint kWorkgroupSize = 64u;
+
+// The ray a slot's path goes on with. The direction has unit length.
+struct Ray {
+    vec3 origin;
+    float unused0;
+    vec3 direction;
+    float unused1;
+};
+
+// Where that ray meets the scene first.
+struct Hit {
+    float t; // distance; infinite: nothing was hit, and the rest is undefined
+    uint leafTriangle;
+    vec2 barycentrics; // b1, b2: the point is (1 - b1 - b2) v0 + b1 v1 + b2 v2
+};
+
+struct Path {
+    vec3 throughput; // product of f |cos| / pdf and 1 / survival so far
+    float bsdfPdf;   // solid-angle pdf of the current ray; 0: camera ray or delta lobe
+    vec3 radiance;   // collected so far
+    uint isCut;      // 1: ended by --max-bounces while it still carried light
+};
+
+// A shadow ray with what it will add to its slot if nothing lies between t = 0 and 1 (the direction spans the whole
+// way to the light).
+struct ShadowRay {
+    vec3 origin;
+    float unused0;
+    vec3 direction;
+    float unused1;
+    vec3 contribution;
+    float unused2;
+};
+
+// Queue lengths of one bounce. Counters of all bounces are cleared once per wave.
+struct BounceCounters {
+    uint rays;
+    uint shadowRays;
+};
+
+// VkDispatchIndirectCommand, padded to 16 bytes.
+struct DispatchSize {
+    uint x;
+    uint y;
+    uint z;
+    uint unused;
+};
+
+// The slots of one wave: slot = sample * pixelCount + pixel, both counted from the first of the wave.
+struct WaveRange {
+    uint firstPixel; // within the image, row by row from the top
+    uint pixelCount;
+    uint firstSample;
+    uint sampleCount;
+    uint bandFirstPixel; // the film at hand starts with this pixel
+    uint bounce;
+};
+
+LAVALIGHT_SHARED_END
+
+#endif

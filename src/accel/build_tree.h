@@ -1,0 +1,79 @@
+// The binary tree between the builders and the flattening, and how it collapses to a 4-wide one.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "accel/bvh.h"
+
+namespace lavalight {
+
+struct BuildBox {
+    glm::vec3 lower{std::numeric_limits<float>::infinity()};
+    glm::vec3 upper{-std::numeric_limits<float>::infinity()};
+
+    void extend(const BuildBox& other) {
+        lower = glm::min(lower, other.lower);
+        upper = glm::max(upper, other.upper);
+    }
+    // Surface area of a box, in double: squares of kMaxCoordinate overflow nothing.
+    [[nodiscard]] double area() const {
+        const glm::dvec3 e = glm::dvec3(upper) - glm::dvec3(lower);
+        return 2.0 * (e.x * e.y + e.y * e.z + e.z * e.x);
+    }
+};
+
+// The cheapest ways to hand a subtree to a 4-wide tree: what Plan decides and collapsing carries out.
+struct Plan {
+    std::array<double, 4> cost{};   // [i]: of the subtree, as at most i + 1 children of one wide node
+    std::array<uint8_t, 4> roots{}; // [i]: how many children that is, 1 to i + 1
+    std::array<uint8_t, 4> share{}; // [i]: of i + 1 children, i > 0, how many come from the left
+    bool isLeaf = true;             // where the subtree is one child: a leaf of all its triangles
+};
+
+// A reference to one triangle, or an inner node with two children, which lie in the arena that made the node.
+struct BuildNode {
+    BuildBox box; // of the part of the triangles that lies in this subtree
+    std::array<const BuildNode*, 2> children{};
+    uint32_t triangle = 0; // of a reference
+    uint32_t count = 1;    // references in this subtree
+    uint32_t height = 0;   // levels until no subtree has more than kMaxLeafTriangles references
+    Plan plan;
+};
+
+// Make the two kinds complete, plan included. The children have been made before.
+void makeReference(BuildNode& node, uint32_t triangle, const BuildBox& box, float triangleCost);
+void makeInner(BuildNode& node, const BuildNode& left, const BuildNode& right, float triangleCost);
+
+[[nodiscard]] BuildBox triangleBox(const Triangle& triangle);
+
+// Halves the triangles at the median of their centres: a plain tree, but at most ceil(log2(n)) levels high
+// for every input. Nodes are added to `arena`. `ids` must not be empty; it is reordered.
+[[nodiscard]] const BuildNode* buildMedianTree(std::span<const Triangle> triangles, std::span<uint32_t> ids,
+                                               float triangleCost, std::deque<BuildNode>& arena);
+
+// Which subtrees become children of a wide node: by plan, the cheapest tree; by height, two levels a node or
+// more, the fallback that halves the height.
+enum class Collapse { cheapest, flattest };
+
+struct WideChild {
+    const BuildNode* subtree = nullptr;
+    bool isLeaf = false; // then it has at most kMaxLeafTriangles references
+};
+
+// One to four.
+[[nodiscard]] std::vector<WideChild> wideChildren(const BuildNode& node, Collapse rule);
+
+// Collapses to four children a node, quantises, and lays nodes and leaf triangles out depth first; fills
+// nodes, leafTriangles and stackNeed. `root` may be null: no triangles. Throws Error if the result exceeds
+// requireBvhFits.
+[[nodiscard]] Bvh flattenTree(const BuildNode* root);
+
+} // namespace lavalight

@@ -1,0 +1,37 @@
+// The bounding volume hierarchy that rays traverse: built on the host, read by kernels.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "accel/triangle.h"
+#include "scene/scene.h"
+#include "shared/bvh.h"
+
+namespace lavalight {
+
+struct BvhConfig {
+    float triangleCost = 0.3f; // of a triangle's test relative to that of a node's four boxes
+    float splitBudget = 0.25f; // spatial splits may add this share of triangle references
+    uint32_t threads = 0;      // 0: as many as there are cores; the tree does not depend on it
+};
+
+struct Bvh {
+    std::vector<BvhNode> nodes;          // node 0 is the root; a node's inner children are neighbours
+    std::vector<uint32_t> leafTriangles; // triangle ids in leaf order; spatial splits repeat some
+    uint32_t stackNeed = 0; // entries that the worst ray leaves on its stack; <= kTraversalStackSize
+    Bounds bounds;          // of all triangles; both corners 0 without any
+    double buildSeconds = 0.0;
+};
+
+// Builds with spatial splits and surface areas. Any number of triangles is fine, none and degenerate ones
+// too: those never hit. Throws Error for a coordinate that is not finite or beyond kMaxCoordinate, and for
+// scenes beyond requireBvhFits.
+[[nodiscard]] Bvh buildBvh(std::span<const Triangle> triangles, const BvhConfig& config = {});
+
+// Throws Error, naming the figure, unless that many leaf triangles and nodes fit into texel buffers of
+// kMaxTexels.
+void requireBvhFits(uint64_t leafTriangles, uint64_t nodes);
+
+} // namespace lavalight

@@ -1,0 +1,116 @@
+// From the binary tree to the cheapest 4-wide one.
+// Based on: Ylitie, Karras, Laine, "Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs",
+// 2017, section 3.1: dynamic programming over the number of children that a subtree gives to its wide node.
+#include <algorithm>
+#include <cassert>
+
+#include "accel/build_tree.h"
+
+namespace lavalight {
+
+namespace {
+
+// Of testing a node's four boxes; triangleCost is relative to it.
+constexpr double kNodeCost = 1.0;
+
+double leafCost(const BuildNode& node, float triangleCost) {
+    return node.box.area() * node.count * triangleCost;
+}
+
+// Two subtrees as `children` children: which share from the left is cheapest, and its cost.
+double distribute(const Plan& left, const Plan& right, size_t children, uint8_t& share) {
+    double best = std::numeric_limits<double>::infinity();
+    for (size_t fromLeft = 1; fromLeft < children; ++fromLeft) {
+        const double cost = left.cost[fromLeft - 1] + right.cost[children - fromLeft - 1];
+        if (cost < best) {
+            best = cost;
+            share = static_cast<uint8_t>(fromLeft);
+        }
+    }
+    return best;
+}
+
+Plan planInner(const BuildNode& node, float triangleCost) {
+    const Plan& left = node.children[0]->plan;
+    const Plan& right = node.children[1]->plan;
+    Plan plan;
+    std::array<double, 4> distributed{};
+    plan.share[1] = plan.share[2] = plan.share[3] = 1; // stands where all costs are infinite
+    for (size_t i = 1; i < 4; ++i)
+        distributed[i] = distribute(left, right, i + 1, plan.share[i]);
+    const double asNode = node.box.area() * kNodeCost + distributed[3];
+    const double asLeaf = leafCost(node, triangleCost);
+    plan.isLeaf = node.count <= kMaxLeafTriangles && asLeaf <= asNode;
+    plan.cost[0] = plan.isLeaf ? asLeaf : asNode;
+    plan.roots[0] = 1;
+    for (size_t i = 1; i < 4; ++i) {
+        const bool more = distributed[i] < plan.cost[i - 1];
+        plan.cost[i] = more ? distributed[i] : plan.cost[i - 1];
+        plan.roots[i] = more ? static_cast<uint8_t>(i + 1) : plan.roots[i - 1];
+    }
+    return plan;
+}
+
+// The subtree as at most `atMost` children, appended.
+void appendCheapest(const BuildNode& node, size_t atMost, std::vector<WideChild>& children) {
+    const size_t roots = node.plan.roots[atMost - 1];
+    if (roots == 1) {
+        children.push_back({&node, node.plan.isLeaf});
+        return;
+    }
+    const size_t share = node.plan.share[roots - 1];
+    appendCheapest(*node.children[0], share, children);
+    appendCheapest(*node.children[1], roots - share, children);
+}
+
+void openTallest(std::vector<WideChild>& children) {
+    while (children.size() < 4) {
+        const auto tallest =
+            std::max_element(children.begin(), children.end(), [](const auto& a, const auto& b) {
+                return a.subtree->height < b.subtree->height;
+            });
+        if (tallest->subtree->height == 0)
+            break;
+        const BuildNode& opened = *tallest->subtree;
+        *tallest = {opened.children[0]};
+        children.insert(tallest + 1, {opened.children[1]});
+    }
+    for (WideChild& child : children)
+        child.isLeaf = child.subtree->height == 0;
+}
+
+} // namespace
+
+void makeReference(BuildNode& node, uint32_t triangle, const BuildBox& box, float triangleCost) {
+    node.box = box;
+    node.triangle = triangle;
+    node.plan.cost.fill(leafCost(node, triangleCost));
+    node.plan.roots.fill(1);
+}
+
+void makeInner(BuildNode& node, const BuildNode& left, const BuildNode& right, float triangleCost) {
+    node.children = {&left, &right};
+    node.box = left.box;
+    node.box.extend(right.box);
+    node.count = left.count + right.count;
+    node.height = node.count <= kMaxLeafTriangles ? 0 : 1 + std::max(left.height, right.height);
+    node.plan = planInner(node, triangleCost);
+}
+
+std::vector<WideChild> wideChildren(const BuildNode& node, Collapse rule) {
+    std::vector<WideChild> children;
+    if (node.count == 1)
+        return {{&node, true}};
+    if (rule == Collapse::cheapest) {
+        const size_t share = node.plan.share[3];
+        appendCheapest(*node.children[0], share, children);
+        appendCheapest(*node.children[1], 4 - share, children);
+    } else {
+        children = {{node.children[0]}, {node.children[1]}};
+        openTallest(children);
+    }
+    assert(children.size() <= 4);
+    return children;
+}
+
+} // namespace lavalight

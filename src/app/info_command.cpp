@@ -1,0 +1,140 @@
+#include "app/info_command.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdio>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include "scene/builtin.h"
+
+namespace lavalight {
+namespace {
+
+uint64_t vertexCount(const Scene& scene) {
+    uint64_t count = 0;
+    for (const Mesh& mesh : scene.meshes)
+        count += mesh.positions.size();
+    return count;
+}
+
+uint64_t emissiveTriangleCount(const Scene& scene) {
+    uint64_t count = 0;
+    for (const Mesh& mesh : scene.meshes)
+        if (scene.materials[mesh.material].emission != glm::vec3(0.0f))
+            count += mesh.triangles.size();
+    return count;
+}
+
+// Positions, normals and indices in host memory, as imported.
+uint64_t geometryBytes(const Scene& scene) {
+    uint64_t bytes = 0;
+    for (const Mesh& mesh : scene.meshes)
+        bytes += mesh.positions.size() * sizeof(glm::vec3) + mesh.normals.size() * sizeof(glm::vec3) +
+                 mesh.triangles.size() * sizeof(glm::uvec3);
+    return bytes;
+}
+
+std::string vectorText(const glm::vec3& v) {
+    return fmt::format("({:.6g}, {:.6g}, {:.6g})", v.x, v.y, v.z);
+}
+
+std::string cameraText(const Camera& camera) {
+    const std::string lens =
+        camera.projection == Projection::perspective
+            ? fmt::format("perspective, {:.4g} degrees high", glm::degrees(camera.verticalFov))
+            : fmt::format("orthographic, {:.4g} m high", 2.0f * camera.halfHeight);
+    const std::string aspect = camera.aspect ? fmt::format(", aspect {:.4g}", *camera.aspect) : "";
+    return fmt::format("\"{}\": {}{}, at {}", camera.name, lens, aspect, vectorText(camera.position));
+}
+
+std::string listText(const std::vector<std::string>& names) {
+    return names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "));
+}
+
+void printText(const Scene& scene) {
+    constexpr double kMebibyte = 1024.0 * 1024.0;
+    fmt::print("scene                {}\n", scene.source);
+    fmt::print("triangles            {}\n", scene.triangleCount());
+    fmt::print("emissive triangles   {}\n", emissiveTriangleCount(scene));
+    fmt::print("vertices             {}\n", vertexCount(scene));
+    fmt::print("meshes               {}\n", scene.meshes.size());
+    fmt::print("materials            {}\n", scene.materials.size());
+    fmt::print("environment          {}\n", vectorText(scene.environment));
+    fmt::print("bounds               {} to {}\n", vectorText(scene.bounds.lower),
+               vectorText(scene.bounds.upper));
+    fmt::print("geometry memory      {:.2f} MiB\n", static_cast<double>(geometryBytes(scene)) / kMebibyte);
+    fmt::print("extensions used      {}\n", listText(scene.extensionsUsed));
+    fmt::print("extensions ignored   {}\n", listText(scene.ignoredExtensions));
+    for (size_t i = 0; i < scene.cameras.size(); ++i)
+        fmt::print("camera {:<13} {}\n", i, cameraText(scene.cameras[i]));
+    for (const std::string& warning : scene.warnings)
+        fmt::print("warning              {}\n", warning);
+}
+
+nlohmann::ordered_json vectorJson(const glm::vec3& v) {
+    return {v.x, v.y, v.z};
+}
+
+nlohmann::ordered_json cameraJson(const Camera& camera) {
+    nlohmann::ordered_json json = {{"name", camera.name}};
+    if (camera.projection == Projection::perspective) {
+        json["projection"] = "perspective";
+        json["verticalFovDegrees"] = glm::degrees(camera.verticalFov);
+    } else {
+        json["projection"] = "orthographic";
+        json["height"] = 2.0f * camera.halfHeight;
+    }
+    json["aspect"] = nullptr;
+    if (camera.aspect)
+        json["aspect"] = *camera.aspect;
+    json["position"] = vectorJson(camera.position);
+    json["forward"] = vectorJson(camera.forward);
+    json["up"] = vectorJson(camera.up);
+    return json;
+}
+
+nlohmann::ordered_json sceneJson(const Scene& scene) {
+    nlohmann::ordered_json cameras = nlohmann::ordered_json::array();
+    for (const Camera& camera : scene.cameras)
+        cameras.push_back(cameraJson(camera));
+    return {
+        {"scene", scene.source},
+        {"triangles", scene.triangleCount()},
+        {"emissiveTriangles", emissiveTriangleCount(scene)},
+        {"vertices", vertexCount(scene)},
+        {"meshes", scene.meshes.size()},
+        {"materials", scene.materials.size()},
+        {"environment", vectorJson(scene.environment)},
+        {"bounds", {{"lower", vectorJson(scene.bounds.lower)}, {"upper", vectorJson(scene.bounds.upper)}}},
+        {"geometryBytes", geometryBytes(scene)},
+        {"extensionsUsed", scene.extensionsUsed},
+        {"extensionsIgnored", scene.ignoredExtensions},
+        {"cameras", cameras},
+        {"warnings", scene.warnings}};
+}
+
+} // namespace
+
+InfoCommand::InfoCommand(CLI::App& app)
+    : Command(app, "info", "What was understood of a scene and what was not") {
+    parser()
+        .add_option("scene", scene_,
+                    fmt::format("A .gltf or .glb file, or built in: {}", listText(builtinNames())))
+        ->type_name("SCENE")
+        ->required();
+    parser().add_flag("--json", json_, "Print JSON");
+}
+
+int InfoCommand::run() {
+    const Scene scene = loadScene(scene_);
+    if (json_) // names in files need not be valid UTF-8
+        fmt::print("{}\n", sceneJson(scene).dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+    else
+        printText(scene);
+    return 0;
+}
+
+} // namespace lavalight

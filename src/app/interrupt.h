@@ -1,0 +1,17 @@
+// Ctrl-C as a question that the render asks between waves.
+#pragma once
+
+namespace lavalight {
+
+// While one lives, the first SIGINT or SIGTERM is only remembered; a second one ends the process at once. One at a time.
+class InterruptGuard {
+  public:
+    InterruptGuard();
+    ~InterruptGuard();
+    InterruptGuard(const InterruptGuard&) = delete;
+    InterruptGuard& operator=(const InterruptGuard&) = delete;
+
+    [[nodiscard]] bool interrupted() const;
+};
+
+} // namespace lavalight

@@ -1,0 +1,147 @@
+#include "app/render_options.h"
+
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+
+namespace lavalight {
+namespace {
+
+// The whole of `text` as a number, or nothing.
+template <typename Number> std::optional<Number> parseNumber(std::string_view text) {
+    Number value{};
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size())
+        return std::nullopt;
+    return value;
+}
+
+std::vector<std::string_view> splitAt(std::string_view text, char separator) {
+    std::vector<std::string_view> parts;
+    size_t start = 0;
+    for (size_t at = text.find(separator); at != std::string_view::npos; at = text.find(separator, start)) {
+        parts.push_back(text.substr(start, at - start));
+        start = at + 1;
+    }
+    parts.push_back(text.substr(start));
+    return parts;
+}
+
+void parseSize(const std::string& text, RenderSettings& settings) {
+    const auto parts = splitAt(text, 'x');
+    const auto width = parts.size() == 2 ? parseNumber<uint32_t>(parts[0]) : std::nullopt;
+    const auto height = parts.size() == 2 ? parseNumber<uint32_t>(parts[1]) : std::nullopt;
+    if (!width || !height || *width < 1 || *width > kMaxImageSide || *height < 1 || *height > kMaxImageSide)
+        throw UsageError(
+            fmt::format("--size: \"{}\" is not WIDTHxHEIGHT with sides of 1 to {} pixels", text, kMaxImageSide));
+    settings.width = *width;
+    settings.height = *height;
+}
+
+glm::vec3 parseEnvironment(const std::string& text) {
+    const auto parts = splitAt(text, ',');
+    glm::vec3 radiance(0.0f);
+    bool isGood = parts.size() == 3;
+    for (size_t i = 0; isGood && i < 3; ++i) {
+        const auto value = parseNumber<float>(parts[i]);
+        isGood = value && std::isfinite(*value) && *value >= 0.0f;
+        radiance[static_cast<glm::length_t>(i)] = value.value_or(0.0f);
+    }
+    if (!isGood)
+        throw UsageError(fmt::format("--env: \"{}\" is not R,G,B with three radiances of 0 or more", text));
+    return radiance;
+}
+
+template <typename Value> CLI::Validator oneOf(const std::map<std::string, Value>& values) {
+    return CLI::CheckedTransformer(values, CLI::ignore_case).description("");
+}
+
+} // namespace
+
+RenderOptions::RenderOptions(CLI::App& parser) {
+    declareImage(parser);
+    declareEstimator(parser);
+    declareDevice(parser);
+}
+
+void RenderOptions::declareImage(CLI::App& parser) {
+    parser.add_option("--size", size_, "Image size in pixels; default: 512 high, as wide as the camera asks")
+        ->type_name("WxH");
+    parser.add_option("--camera", camera_, "Camera by name or index; default: the first")->type_name("NAME|INDEX");
+    parser.add_option("--env", environment_, "Constant radiance from all sides; replaces the scene's")
+        ->type_name("R,G,B");
+    parser.add_option("--spp", settings_.samples, "Samples per pixel")->type_name("N");
+    parser.add_option("--seed", settings_.estimator.seed, "Another seed, other noise")->type_name("N");
+}
+
+void RenderOptions::declareEstimator(CLI::App& parser) {
+    EstimatorSettings& e = settings_.estimator;
+    parser.add_option("--nee", nee_, "Next-event estimation: on, off (light is found only by hitting it)")
+        ->type_name("on|off")
+        ->check(CLI::IsMember({"on", "off"}));
+    parser.add_option("--mis", e.mis, "Weights of light and BSDF samples: power, balance, off")
+        ->type_name("power|balance|off")
+        ->transform(oneOf<Mis>({{"power", Mis::power}, {"balance", Mis::balance}, {"off", Mis::off}}))
+        ->default_str("power");
+    parser.add_option("--roulette", e.roulette, "Survival probability of a path: throughput, off")
+        ->type_name("throughput|off")
+        ->transform(oneOf<Roulette>({{"throughput", Roulette::throughput}, {"off", Roulette::off}}))
+        ->default_str("throughput");
+    parser.add_option("--roulette-start", e.rouletteStart, "First vertex where a path may die (first hit: 1)")
+        ->type_name("N");
+    parser.add_option("--max-bounces", e.maxBounces, "Scattering vertices of a path; 0: emission only, 1: direct light")
+        ->type_name("N");
+}
+
+void RenderOptions::declareDevice(CLI::App& parser) {
+    parser.add_option("--device", device_.wanted, "Vulkan device by name or index (see lavalight devices)")
+        ->type_name("NAME|INDEX");
+    const std::map<std::string, gpu::RequiredDevice> kinds{
+        {"any", gpu::RequiredDevice::any}, {"cpu", gpu::RequiredDevice::cpu}, {"gpu", gpu::RequiredDevice::gpu}};
+    parser.add_option("--require-device", device_.required, "Refuse to run on another kind of device")
+        ->type_name("any|cpu|gpu")
+        ->transform(oneOf(kinds))
+        ->default_str("any");
+    parser.add_flag("--validate", device_.validate, "Run the Vulkan validation layer; any message fails the render");
+    parser.add_option("--wave-size", settings_.waveSize, "Paths in flight; changes no bit of the image")->type_name("N");
+    parser.add_option("--band-rows", settings_.bandRows,
+                      "Rows of a film band; 0: as many as fit; changes no bit of the image")
+        ->type_name("N");
+}
+
+RenderSettings RenderOptions::settings() const {
+    RenderSettings settings = settings_;
+    settings.estimator.nextEventEstimation = nee_ == "on";
+    if (!size_.empty())
+        parseSize(size_, settings);
+    if (!environment_.empty())
+        settings.environment = parseEnvironment(environment_);
+    return settings;
+}
+
+gpu::DeviceConfig RenderOptions::device() const {
+    return device_;
+}
+
+const Camera& RenderOptions::pickCamera(const Scene& scene) const {
+    if (camera_.empty())
+        return scene.cameras.front();
+    for (const Camera& camera : scene.cameras)
+        if (camera.name == camera_)
+            return camera;
+    if (const auto index = parseNumber<size_t>(camera_); index && *index < scene.cameras.size())
+        return scene.cameras[*index];
+    std::string known;
+    for (size_t i = 0; i < scene.cameras.size(); ++i)
+        known += fmt::format("{}{} \"{}\"", i > 0 ? ", " : "", i, scene.cameras[i].name);
+    throw UsageError(fmt::format("--camera: {} has no camera \"{}\"; it has {}", scene.source, camera_, known));
+}
+
+} // namespace lavalight

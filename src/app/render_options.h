@@ -1,0 +1,40 @@
+// The options of a render, shared by every command that renders.
+#pragma once
+
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "gpu/device.h"
+#include "render/settings.h"
+#include "scene/scene.h"
+
+namespace lavalight {
+
+// Declares options on a parser and turns their values into settings. Must outlive the parsing; the parser points into it.
+class RenderOptions {
+  public:
+    explicit RenderOptions(CLI::App& parser);
+    RenderOptions(const RenderOptions&) = delete;
+    RenderOptions& operator=(const RenderOptions&) = delete;
+
+    // Throws UsageError naming the option and what it takes.
+    [[nodiscard]] RenderSettings settings() const;
+    [[nodiscard]] gpu::DeviceConfig device() const;
+    // The camera asked for by name or index, else the first. Throws UsageError naming the cameras there are.
+    [[nodiscard]] const Camera& pickCamera(const Scene& scene) const;
+
+  private:
+    void declareImage(CLI::App& parser);
+    void declareEstimator(CLI::App& parser);
+    void declareDevice(CLI::App& parser);
+
+    std::string size_;
+    std::string camera_;
+    std::string environment_;
+    std::string nee_ = "on";
+    RenderSettings settings_;
+    gpu::DeviceConfig device_;
+};
+
+} // namespace lavalight

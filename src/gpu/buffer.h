@@ -1,0 +1,69 @@
+// Device memory as buffers: storage buffers that kernels write, texel buffers that they only read.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include <vulkan/vulkan_raii.hpp>
+
+#include "gpu/device.h"
+
+namespace lavalight::gpu {
+
+enum class BufferUse {
+    storage,  // read and written by kernels; stays in the device's memory
+    readback, // as storage, but mapped, for the few words that the host reads after each submission
+    texels,   // read by kernels as RGBA32UI texels (16 bytes an element) through a uniform texel view
+};
+
+// One Vulkan buffer with its memory. Contents are undefined until written. Moves, never copies.
+class Buffer {
+  public:
+    // `bytes` may be 0 (a kernel then binds an element that it never reads). Throws Error where a limit of the device
+    // or its memory is exceeded, with the figures.
+    Buffer(Device& device, std::string name, uint64_t bytes, BufferUse use);
+
+    [[nodiscard]] const std::string& name() const { return name_; }
+    [[nodiscard]] uint64_t bytes() const { return bytes_; }
+    [[nodiscard]] BufferUse use() const { return use_; }
+
+    // Host to device and back, waiting for the copy; through a staging buffer where the memory cannot be mapped.
+    // Not while a submission that uses the buffer is running. `data` must not exceed the buffer.
+    void upload(std::span<const std::byte> data);
+    void download(std::span<std::byte> data) const;
+
+    template <typename T>
+    void upload(std::span<const T> data) {
+        static_assert(std::is_trivially_copyable_v<T>);
+        upload(std::as_bytes(data));
+    }
+    template <typename T>
+    [[nodiscard]] std::vector<T> downloadAll() const {
+        static_assert(std::is_trivially_copyable_v<T>);
+        std::vector<T> values(bytes_ / sizeof(T));
+        download(std::as_writable_bytes(std::span(values)));
+        return values;
+    }
+
+    [[nodiscard]] vk::Buffer handle() const { return *buffer_; }
+    [[nodiscard]] vk::BufferView texelView() const { return *view_; }
+
+  private:
+    void allocate();
+
+    Device* device_; // outlives every buffer
+    std::string name_;
+    uint64_t bytes_;
+    BufferUse use_;
+    MemoryReservation reservation_;
+    vk::raii::Buffer buffer_ = nullptr;
+    vk::raii::DeviceMemory memory_ = nullptr;
+    vk::raii::BufferView view_ = nullptr;
+    void* mapped_ = nullptr; // null: not host-visible
+};
+
+} // namespace lavalight::gpu

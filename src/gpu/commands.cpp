@@ -1,0 +1,135 @@
+#include "gpu/commands.h"
+
+#include <cassert>
+
+namespace lavalight::gpu {
+namespace {
+
+// Timestamps of one submission; what goes beyond is run but not timed.
+constexpr uint32_t kMaxStamps = 4096;
+
+const vk::CommandBuffer recorded(const std::vector<vk::raii::CommandBuffer>& buffers) {
+    return *buffers.front();
+}
+
+} // namespace
+
+Commands::Commands(Device& device) : device_(&device) {
+    checked("create", "a command buffer", [&] {
+        pool_ = vk::raii::CommandPool(
+            device.handle(), vk::CommandPoolCreateInfo(vk::CommandPoolCreateFlagBits::eResetCommandBuffer,
+                                                       device.queueFamily()));
+        const vk::CommandBufferAllocateInfo info(*pool_, vk::CommandBufferLevel::ePrimary, 1);
+        for (auto& buffer : vk::raii::CommandBuffers(device.handle(), info))
+            buffers_.push_back(std::move(buffer));
+        fence_ = vk::raii::Fence(device.handle(), vk::FenceCreateInfo());
+        if (device.limits().timestampNanoseconds > 0.0)
+            queries_ = vk::raii::QueryPool(
+                device.handle(), vk::QueryPoolCreateInfo({}, vk::QueryType::eTimestamp, kMaxStamps));
+    });
+}
+
+void Commands::begin() {
+    buffers_.front().begin(vk::CommandBufferBeginInfo(vk::CommandBufferUsageFlagBits::eOneTimeSubmit));
+    stamps_.clear();
+    if (*queries_)
+        recorded(buffers_).resetQueryPool(*queries_, 0, kMaxStamps);
+    stamp("");
+}
+
+void Commands::stamp(std::string_view name) {
+    if (!*queries_ || stamps_.size() == kMaxStamps)
+        return;
+    recorded(buffers_).writeTimestamp(vk::PipelineStageFlagBits::eBottomOfPipe, *queries_,
+                                      static_cast<uint32_t>(stamps_.size()));
+    stamps_.emplace_back(name);
+}
+
+void Commands::prepareDispatch(const BoundKernel& kernel, std::span<const std::byte> pushConstants) {
+    assert(pushConstants.size() == kernel.kernel().code().pushConstantBytes);
+    const vk::CommandBuffer commands = recorded(buffers_);
+    const vk::PipelineLayout layout = kernel.kernel().layout();
+    commands.bindPipeline(vk::PipelineBindPoint::eCompute, kernel.kernel().pipeline());
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, layout, 0, kernel.set(), {});
+    if (!pushConstants.empty())
+        commands.pushConstants(layout, vk::ShaderStageFlagBits::eCompute, 0,
+                               static_cast<uint32_t>(pushConstants.size()), pushConstants.data());
+}
+
+void Commands::finishCommand() {
+    using Access = vk::AccessFlagBits;
+    using Stage = vk::PipelineStageFlagBits;
+    const vk::PipelineStageFlags work = Stage::eComputeShader | Stage::eTransfer;
+    const vk::MemoryBarrier barrier(Access::eShaderWrite | Access::eTransferWrite,
+                                    Access::eShaderRead | Access::eShaderWrite | Access::eIndirectCommandRead |
+                                        Access::eTransferRead | Access::eTransferWrite | Access::eHostRead);
+    recorded(buffers_).pipelineBarrier(work, work | Stage::eDrawIndirect | Stage::eHost, {}, barrier, {}, {});
+}
+
+void Commands::dispatch(const BoundKernel& kernel, uint32_t groups, std::span<const std::byte> pushConstants) {
+    assert(groups <= device_->limits().maxGroups);
+    prepareDispatch(kernel, pushConstants);
+    recorded(buffers_).dispatch(groups, 1, 1);
+    finishCommand();
+    stamp(kernel.kernel().name());
+}
+
+void Commands::dispatchIndirect(const BoundKernel& kernel, const Buffer& sizes, uint64_t offset,
+                                std::span<const std::byte> pushConstants) {
+    prepareDispatch(kernel, pushConstants);
+    recorded(buffers_).dispatchIndirect(sizes.handle(), offset);
+    finishCommand();
+    stamp(kernel.kernel().name());
+}
+
+void Commands::fill(const Buffer& buffer, uint32_t value) {
+    recorded(buffers_).fillBuffer(buffer.handle(), 0, VK_WHOLE_SIZE, value);
+    finishCommand();
+    stamp("");
+}
+
+void Commands::copy(const Buffer& from, const Buffer& to, uint64_t bytes) {
+    recorded(buffers_).copyBuffer(from.handle(), to.handle(), vk::BufferCopy(0, 0, bytes));
+    finishCommand();
+    stamp("");
+}
+
+void Commands::submitAndWait() {
+    checked("run", "a submission", [&] {
+        buffers_.front().end();
+        const vk::CommandBuffer commands = recorded(buffers_);
+        const vk::SubmitInfo submit({}, {}, commands);
+        device_->queue().submit(submit, *fence_);
+        // No time limit: a pass on a CPU device may take minutes.
+        while (device_->handle().waitForFences(*fence_, VK_TRUE, UINT64_MAX) == vk::Result::eTimeout) {
+        }
+        device_->handle().resetFences(*fence_);
+    });
+    collectTimes();
+}
+
+void Commands::collectTimes() {
+    if (stamps_.size() < 2)
+        return;
+    const auto [result, ticks] = queries_.getResults<uint64_t>(
+        0, static_cast<uint32_t>(stamps_.size()), stamps_.size() * sizeof(uint64_t), sizeof(uint64_t),
+        vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait);
+    if (result != vk::Result::eSuccess)
+        return;
+    for (size_t i = 1; i < stamps_.size(); ++i) {
+        if (stamps_[i].empty())
+            continue;
+        KernelTime& time = times_[stamps_[i]];
+        time.seconds += static_cast<double>(ticks[i] - ticks[i - 1]) * device_->limits().timestampNanoseconds * 1e-9;
+        ++time.dispatches;
+    }
+}
+
+void copyAndWait(Device& device, const Buffer& from, const Buffer& to, uint64_t bytes) {
+    Commands commands(device);
+    commands.begin();
+    commands.copy(from, to, bytes);
+    commands.submitAndWait();
+}
+
+} // namespace lavalight::gpu

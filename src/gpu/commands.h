@@ -1,0 +1,66 @@
+// Command buffers: kernels and fills recorded in order, submitted, waited for, and timed by name.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <vulkan/vulkan_raii.hpp>
+
+#include "gpu/buffer.h"
+#include "gpu/device.h"
+#include "gpu/kernel.h"
+
+namespace lavalight::gpu {
+
+// Device time spent in kernels of one name.
+struct KernelTime {
+    double seconds = 0.0;
+    uint64_t dispatches = 0;
+};
+using KernelTimes = std::map<std::string, KernelTime, std::less<>>;
+
+// Records and runs one command buffer again and again. Every recorded command sees the writes of the ones before it.
+class Commands {
+  public:
+    explicit Commands(Device& device);
+
+    // Starts recording anew. Not while a submission runs.
+    void begin();
+    // `groups` workgroups along x; push constants must be as long as the kernel declares.
+    void dispatch(const BoundKernel& kernel, uint32_t groups, std::span<const std::byte> pushConstants = {});
+    // Workgroup counts are read from `sizes` (three uint32) at `offset` bytes.
+    void dispatchIndirect(const BoundKernel& kernel, const Buffer& sizes, uint64_t offset,
+                          std::span<const std::byte> pushConstants = {});
+    // Sets every 32-bit word of `buffer`.
+    void fill(const Buffer& buffer, uint32_t value);
+    void copy(const Buffer& from, const Buffer& to, uint64_t bytes);
+    // Ends recording, runs, and returns when all is done. Throws Error where the device fails or is lost.
+    void submitAndWait();
+
+    // Sums over all submissions so far; empty on a queue without timestamps.
+    [[nodiscard]] const KernelTimes& times() const { return times_; }
+
+  private:
+    void prepareDispatch(const BoundKernel& kernel, std::span<const std::byte> pushConstants);
+    void finishCommand();
+    void stamp(std::string_view name);
+    void collectTimes();
+
+    Device* device_;
+    vk::raii::CommandPool pool_ = nullptr;
+    std::vector<vk::raii::CommandBuffer> buffers_; // exactly one
+    vk::raii::Fence fence_ = nullptr;
+    vk::raii::QueryPool queries_ = nullptr;
+    std::vector<std::string> stamps_; // the name whose work ends at timestamp i; empty: not a kernel
+    KernelTimes times_;
+};
+
+// One-shot copy of the first `bytes` bytes.
+void copyAndWait(Device& device, const Buffer& from, const Buffer& to, uint64_t bytes);
+
+} // namespace lavalight::gpu

@@ -1,0 +1,123 @@
+// Vulkan instance and device: choice with reasons, limits, validation messages, memory accounting.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <vulkan/vulkan_raii.hpp>
+
+namespace lavalight::gpu {
+
+enum class RequiredDevice { any, cpu, gpu };
+
+struct DeviceConfig {
+    std::string wanted;                             // index or part of a name; empty: the first usable, GPUs first
+    RequiredDevice required = RequiredDevice::any;  // refuse to run on anything else
+    bool validate = false;                          // Khronos validation layer with synchronisation checks
+};
+
+// One line of `lavalight devices`.
+struct DeviceDescription {
+    uint32_t index = 0;
+    std::string name;
+    std::string driver; // name and version
+    std::string type;   // "CPU", "discrete GPU", ...
+    std::string apiVersion;
+    std::vector<std::string> refusals; // why this device cannot render; empty: it can
+    bool isCpu = false;
+};
+
+// Every Vulkan device of this machine. Throws Error where there is no Vulkan loader or driver.
+[[nodiscard]] std::vector<DeviceDescription> listDevices();
+
+struct DeviceLimits {
+    uint64_t maxStorageBufferBytes = 0;
+    uint64_t maxTexelBufferElements = 0;
+    uint32_t maxGroups = 0; // workgroups of one dispatch, x
+    uint32_t subgroupSize = 0;
+    uint64_t memoryBytes = 0; // the largest device-local heap
+    double timestampNanoseconds = 0.0; // 0: no timestamps on the queue
+};
+
+// A share of the device's memory, given back on destruction.
+class MemoryReservation {
+  public:
+    MemoryReservation() = default;
+    MemoryReservation(uint64_t& total, uint64_t bytes) : total_(&total), bytes_(bytes) { total += bytes; }
+    ~MemoryReservation() {
+        if (total_ != nullptr)
+            *total_ -= bytes_;
+    }
+    MemoryReservation(MemoryReservation&& other) noexcept
+        : total_(std::exchange(other.total_, nullptr)), bytes_(other.bytes_) {}
+    MemoryReservation& operator=(MemoryReservation&& other) noexcept {
+        std::swap(total_, other.total_);
+        std::swap(bytes_, other.bytes_);
+        return *this;
+    }
+
+  private:
+    uint64_t* total_ = nullptr; // the device's count; the device outlives its buffers
+    uint64_t bytes_ = 0;
+};
+
+class Device {
+  public:
+    // Throws Error naming every refused device with its reasons when none is left.
+    explicit Device(const DeviceConfig& config);
+    ~Device();
+    Device(const Device&) = delete;
+    Device& operator=(const Device&) = delete;
+
+    [[nodiscard]] const DeviceDescription& description() const { return description_; }
+    [[nodiscard]] const DeviceLimits& limits() const { return limits_; }
+    // What the validation layer said so far, oldest first. Empty without `validate`.
+    [[nodiscard]] std::vector<std::string> validationMessages() const;
+
+    // Bytes of the buffers alive now, and the most there ever were.
+    [[nodiscard]] uint64_t allocatedBytes() const { return allocatedBytes_; }
+    [[nodiscard]] uint64_t peakAllocatedBytes() const { return peakAllocatedBytes_; }
+    // Throws Error if `bytes` more would not fit in the device's memory; otherwise counts them while the result lives.
+    [[nodiscard]] MemoryReservation reserve(uint64_t bytes, std::string_view object);
+
+    [[nodiscard]] const vk::raii::Device& handle() const { return device_; }
+    [[nodiscard]] const vk::raii::Queue& queue() const { return queue_; }
+    [[nodiscard]] uint32_t queueFamily() const { return queueFamily_; }
+    // The first memory type allowed by `typeBits` that has all of `flags`, or ~0u.
+    [[nodiscard]] uint32_t findMemoryType(uint32_t typeBits, vk::MemoryPropertyFlags flags) const;
+
+  private:
+    struct MessageLog;
+
+    vk::raii::Context context_;
+    std::unique_ptr<MessageLog> messages_; // at a fixed address: the messenger's callback writes to it
+    vk::raii::Instance instance_ = nullptr;
+    vk::raii::DebugUtilsMessengerEXT messenger_ = nullptr;
+    vk::raii::PhysicalDevice physical_ = nullptr;
+    vk::raii::Device device_ = nullptr;
+    vk::raii::Queue queue_ = nullptr;
+    vk::PhysicalDeviceMemoryProperties memory_;
+    uint32_t queueFamily_ = 0;
+    DeviceDescription description_;
+    DeviceLimits limits_;
+    uint64_t allocatedBytes_ = 0;
+    uint64_t peakAllocatedBytes_ = 0;
+};
+
+[[noreturn]] void throwVulkanError(std::string_view operation, std::string_view object, const char* reason);
+
+// Runs a Vulkan operation; a failure becomes an Error that names the operation and the object.
+template <typename Operation>
+auto checked(std::string_view operation, std::string_view object, const Operation& run) {
+    try {
+        return run();
+    } catch (const vk::SystemError& error) {
+        throwVulkanError(operation, object, error.what());
+    }
+}
+
+} // namespace lavalight::gpu

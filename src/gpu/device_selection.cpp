@@ -1,0 +1,144 @@
+#include "gpu/device_selection.h"
+
+#include <algorithm>
+#include <cctype>
+#include <string>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "base/error.h"
+
+namespace lavalight::gpu {
+namespace {
+
+// What the kernels use at most: see shaders/shared/bindings.h.
+constexpr uint32_t kStorageBuffers = 8;
+constexpr uint32_t kTexelBuffers = 8;
+constexpr uint32_t kWorkgroupSize = 64;
+constexpr uint64_t kMinTexelElements = 1u << 20;
+
+std::string versionText(uint32_t version) {
+    return fmt::format("{}.{}.{}", VK_API_VERSION_MAJOR(version), VK_API_VERSION_MINOR(version),
+                       VK_API_VERSION_PATCH(version));
+}
+
+std::string typeText(vk::PhysicalDeviceType type) {
+    switch (type) {
+    case vk::PhysicalDeviceType::eCpu:
+        return "CPU";
+    case vk::PhysicalDeviceType::eDiscreteGpu:
+        return "discrete GPU";
+    case vk::PhysicalDeviceType::eIntegratedGpu:
+        return "integrated GPU";
+    case vk::PhysicalDeviceType::eVirtualGpu:
+        return "virtual GPU";
+    default:
+        return "other";
+    }
+}
+
+// Refusals that need Vulkan 1.1's property chain; only asked of devices that have it.
+void refuseBySubgroups(const vk::PhysicalDeviceSubgroupProperties& subgroup,
+                       std::vector<std::string>& refusals) {
+    if (!(subgroup.supportedStages & vk::ShaderStageFlagBits::eCompute))
+        refusals.emplace_back("no subgroup operations in compute shaders");
+    const auto needed = vk::SubgroupFeatureFlagBits::eBasic | vk::SubgroupFeatureFlagBits::eBallot;
+    if ((subgroup.supportedOperations & needed) != needed)
+        refusals.emplace_back("no subgroup ballot (needed to compact the queues)");
+}
+
+void refuseByLimits(const vk::PhysicalDeviceLimits& limits, std::vector<std::string>& refusals) {
+    if (limits.maxPerStageDescriptorStorageBuffers < kStorageBuffers)
+        refusals.push_back(fmt::format("{} storage buffers per stage, {} needed",
+                                       limits.maxPerStageDescriptorStorageBuffers, kStorageBuffers));
+    if (limits.maxPerStageDescriptorSampledImages < kTexelBuffers)
+        refusals.push_back(fmt::format("{} texel buffers per stage, {} needed",
+                                       limits.maxPerStageDescriptorSampledImages, kTexelBuffers));
+    if (limits.maxComputeWorkGroupInvocations < kWorkgroupSize)
+        refusals.push_back(fmt::format("workgroups of {} invocations at most, {} needed",
+                                       limits.maxComputeWorkGroupInvocations, kWorkgroupSize));
+    if (limits.maxTexelBufferElements < kMinTexelElements)
+        refusals.push_back(fmt::format("texel buffers of {} elements at most, {} needed",
+                                       limits.maxTexelBufferElements, kMinTexelElements));
+}
+
+std::string lowerCase(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
+}
+
+// Empty: `device` is what `config` asks for.
+std::vector<std::string> unwanted(const DeviceDescription& device, const DeviceConfig& config) {
+    std::vector<std::string> reasons = device.refusals;
+    if (config.required == RequiredDevice::cpu && !device.isCpu)
+        reasons.emplace_back("--require-device cpu");
+    if (config.required == RequiredDevice::gpu && device.isCpu)
+        reasons.emplace_back("--require-device gpu");
+    const bool isIndex = !config.wanted.empty() &&
+                         std::all_of(config.wanted.begin(), config.wanted.end(),
+                                     [](unsigned char c) { return std::isdigit(c) != 0; });
+    if (isIndex && config.wanted != std::to_string(device.index))
+        reasons.push_back(fmt::format("its index is not {}", config.wanted));
+    if (!isIndex && lowerCase(device.name).find(lowerCase(config.wanted)) == std::string::npos)
+        reasons.push_back(fmt::format("its name does not contain \"{}\"", config.wanted));
+    return reasons;
+}
+
+} // namespace
+
+std::optional<uint32_t> findComputeFamily(const vk::raii::PhysicalDevice& physical) {
+    std::optional<uint32_t> found;
+    const auto families = physical.getQueueFamilyProperties();
+    for (uint32_t i = 0; i < families.size(); ++i) {
+        if (!(families[i].queueFlags & vk::QueueFlagBits::eCompute))
+            continue;
+        if (!found || (families[*found].timestampValidBits == 0 && families[i].timestampValidBits != 0))
+            found = i;
+    }
+    return found;
+}
+
+DeviceDescription describeDevice(const vk::raii::PhysicalDevice& physical, uint32_t index) {
+    const vk::PhysicalDeviceProperties properties = physical.getProperties();
+    DeviceDescription description;
+    description.index = index;
+    description.name = properties.deviceName.data();
+    description.type = typeText(properties.deviceType);
+    description.isCpu = properties.deviceType == vk::PhysicalDeviceType::eCpu;
+    description.apiVersion = versionText(properties.apiVersion);
+    description.driver = versionText(properties.driverVersion);
+    if (properties.apiVersion < VK_API_VERSION_1_2) {
+        description.refusals.push_back(fmt::format("Vulkan {}, 1.2 needed", description.apiVersion));
+    } else {
+        const auto chain = physical.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceDriverProperties,
+                                                   vk::PhysicalDeviceSubgroupProperties>();
+        const auto& driver = chain.get<vk::PhysicalDeviceDriverProperties>();
+        description.driver = fmt::format("{} {}", driver.driverName.data(), driver.driverInfo.data());
+        refuseBySubgroups(chain.get<vk::PhysicalDeviceSubgroupProperties>(), description.refusals);
+    }
+    refuseByLimits(properties.limits, description.refusals);
+    if (!findComputeFamily(physical))
+        description.refusals.emplace_back("no compute queue");
+    return description;
+}
+
+uint32_t chooseDevice(const std::vector<DeviceDescription>& devices, const DeviceConfig& config) {
+    std::optional<uint32_t> best;
+    std::string reasons;
+    for (uint32_t i = 0; i < devices.size(); ++i) {
+        const std::vector<std::string> refused = unwanted(devices[i], config);
+        if (!refused.empty())
+            reasons += fmt::format("; {} {}: {}", devices[i].index, devices[i].name, fmt::join(refused, ", "));
+        else if (!best || (devices[*best].isCpu && !devices[i].isCpu))
+            best = i;
+    }
+    if (!best)
+        throw Error(fmt::format("no usable Vulkan device{}",
+                                devices.empty() ? ": none found; Debian's mesa-vulkan-drivers has one for CPUs"
+                                                : reasons));
+    return *best;
+}
+
+} // namespace lavalight::gpu

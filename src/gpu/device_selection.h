@@ -1,0 +1,22 @@
+// Which Vulkan devices can render, which cannot and why, and which one to take.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <vulkan/vulkan_raii.hpp>
+
+#include "gpu/device.h"
+
+namespace lavalight::gpu {
+
+// What `physical` is and every reason why it cannot render.
+[[nodiscard]] DeviceDescription describeDevice(const vk::raii::PhysicalDevice& physical, uint32_t index);
+
+// The queue family for compute work that also has timestamps where possible; nullopt: none computes.
+[[nodiscard]] std::optional<uint32_t> findComputeFamily(const vk::raii::PhysicalDevice& physical);
+
+// Index into `devices` by the wishes of `config`: GPUs before CPUs. Throws Error with each device's reasons.
+[[nodiscard]] uint32_t chooseDevice(const std::vector<DeviceDescription>& devices, const DeviceConfig& config);
+
+} // namespace lavalight::gpu

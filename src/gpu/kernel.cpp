@@ -1,0 +1,108 @@
+#include "gpu/kernel.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+
+namespace lavalight::gpu {
+namespace {
+
+vk::DescriptorType descriptorType(BindingKind kind) {
+    return kind == BindingKind::storageBuffer ? vk::DescriptorType::eStorageBuffer
+                                              : vk::DescriptorType::eUniformTexelBuffer;
+}
+
+vk::raii::DescriptorSetLayout makeSetLayout(const Device& device, const KernelCode& code) {
+    std::vector<vk::DescriptorSetLayoutBinding> bindings;
+    for (const KernelBinding& binding : code.bindings)
+        bindings.emplace_back(binding.binding, descriptorType(binding.kind), 1,
+                              vk::ShaderStageFlagBits::eCompute);
+    return {device.handle(), vk::DescriptorSetLayoutCreateInfo({}, bindings)};
+}
+
+vk::raii::PipelineLayout makeLayout(const Device& device, const KernelCode& code,
+                                    vk::DescriptorSetLayout setLayout) {
+    const vk::PushConstantRange range(vk::ShaderStageFlagBits::eCompute, 0, code.pushConstantBytes);
+    vk::PipelineLayoutCreateInfo info({}, setLayout);
+    if (code.pushConstantBytes > 0)
+        info.setPushConstantRanges(range);
+    return {device.handle(), info};
+}
+
+vk::raii::Pipeline makePipeline(const Device& device, const KernelCode& code, vk::PipelineLayout layout,
+                                std::span<const SpecialisationConstant> constants) {
+    std::vector<vk::SpecializationMapEntry> entries;
+    std::vector<uint32_t> values;
+    for (const SpecialisationConstant& constant : constants) {
+        entries.emplace_back(constant.id, static_cast<uint32_t>(values.size() * sizeof(uint32_t)),
+                             sizeof(uint32_t));
+        values.push_back(constant.value);
+    }
+    const vk::SpecializationInfo specialisation(
+        static_cast<uint32_t>(entries.size()), entries.data(), values.size() * sizeof(uint32_t), values.data());
+    const vk::ShaderModuleCreateInfo moduleInfo({}, code.spirv);
+    const vk::raii::ShaderModule shader(device.handle(), moduleInfo);
+    const vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *shader, "main",
+                                                  &specialisation);
+    return {device.handle(), nullptr, vk::ComputePipelineCreateInfo({}, stage, layout)};
+}
+
+} // namespace
+
+Kernel::Kernel(const Device& device, KernelCode code, std::span<const SpecialisationConstant> constants)
+    : code_(std::move(code)) {
+    checked("build kernel", code_.name, [&] {
+        setLayout_ = makeSetLayout(device, code_);
+        layout_ = makeLayout(device, code_, *setLayout_);
+        pipeline_ = makePipeline(device, code_, *layout_, constants);
+    });
+}
+
+const Buffer& ResourceTable::get(std::string_view name) const {
+    const auto found = buffers_.find(name);
+    if (found == buffers_.end())
+        throw std::logic_error(fmt::format("no buffer is set under the name {}", name));
+    return *found->second;
+}
+
+BoundKernel::BoundKernel(const Device& device, const Kernel& kernel, const ResourceTable& resources)
+    : kernel_(&kernel) {
+    const std::vector<KernelBinding>& bindings = kernel.code().bindings;
+    std::vector<vk::DescriptorPoolSize> sizes;
+    std::vector<vk::DescriptorBufferInfo> buffers(bindings.size());
+    std::vector<vk::BufferView> views(bindings.size());
+    std::vector<vk::WriteDescriptorSet> writes;
+    for (size_t i = 0; i < bindings.size(); ++i) {
+        const Buffer& buffer = resources.get(bindings[i].name);
+        const vk::DescriptorType type = descriptorType(bindings[i].kind);
+        sizes.emplace_back(type, 1);
+        vk::WriteDescriptorSet write({}, bindings[i].binding, 0, 1, type);
+        if (bindings[i].kind == BindingKind::storageBuffer) {
+            buffers[i] = vk::DescriptorBufferInfo(buffer.handle(), 0, VK_WHOLE_SIZE);
+            write.setBufferInfo(buffers[i]);
+        } else {
+            views[i] = buffer.texelView();
+            write.setTexelBufferView(views[i]);
+        }
+        writes.push_back(write);
+    }
+    if (sizes.empty())
+        sizes.emplace_back(vk::DescriptorType::eStorageBuffer, 1);
+    checked("bind kernel", kernel.name(), [&] {
+        pool_ = vk::raii::DescriptorPool(
+            device.handle(),
+            vk::DescriptorPoolCreateInfo(vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 1, sizes));
+        const vk::DescriptorSetLayout layout = kernel.setLayout();
+        for (auto& set :
+             vk::raii::DescriptorSets(device.handle(), vk::DescriptorSetAllocateInfo(*pool_, layout)))
+            sets_.push_back(std::move(set));
+        for (vk::WriteDescriptorSet& write : writes)
+            write.setDstSet(*sets_.front());
+        device.handle().updateDescriptorSets(writes, {});
+    });
+}
+
+} // namespace lavalight::gpu

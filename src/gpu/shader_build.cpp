@@ -1,0 +1,124 @@
+#include "gpu/shader_build.h"
+
+#include <algorithm>
+#include <memory>
+#include <mutex>
+#include <set>
+
+#include <glslang/SPIRV/GlslangToSpv.h>
+#include <fmt/format.h>
+#include <glslang/Public/ResourceLimits.h>
+#include <glslang/Public/ShaderLang.h>
+
+#include "base/error.h"
+#include "base/file.h"
+
+namespace lavalight::gpu {
+namespace {
+
+// Resolves includes against one root. A file asked for twice comes back empty the second time: include guards for free.
+class RootIncluder : public glslang::TShader::Includer {
+  public:
+    explicit RootIncluder(std::filesystem::path root) : root_(std::move(root)) {}
+
+    IncludeResult* includeLocal(const char* name, const char*, size_t) override {
+        const std::filesystem::path path = root_ / name;
+        if (!std::filesystem::is_regular_file(path))
+            return nullptr;
+        auto& text = texts_.emplace_back(std::make_unique<std::string>());
+        if (seen_.insert(path.lexically_normal().string()).second)
+            *text = readFile(path);
+        auto& result = results_.emplace_back(
+            std::make_unique<IncludeResult>(path.string(), text->data(), text->size(), nullptr));
+        return result.get();
+    }
+    void releaseInclude(IncludeResult*) override {} // owned by results_
+
+  private:
+    std::filesystem::path root_;
+    std::set<std::string> seen_;
+    std::vector<std::unique_ptr<std::string>> texts_;
+    std::vector<std::unique_ptr<IncludeResult>> results_;
+};
+
+void initialiseGlslang() {
+    static std::once_flag once;
+    std::call_once(once, [] { glslang::InitializeProcess(); });
+}
+
+std::vector<KernelBinding> reflectBindings(const glslang::TProgram& program) {
+    std::vector<KernelBinding> bindings;
+    for (int i = 0; i < program.getNumUniformVariables(); ++i) {
+        const glslang::TObjectReflection& uniform = program.getUniform(i);
+        if (uniform.getType()->getBasicType() == glslang::EbtSampler)
+            bindings.push_back({uniform.name, static_cast<uint32_t>(uniform.getBinding()),
+                                BindingKind::uniformTexelBuffer});
+    }
+    for (int i = 0; i < program.getNumBufferBlocks(); ++i) {
+        const glslang::TObjectReflection& block = program.getBufferBlock(i);
+        bindings.push_back(
+            {block.name, static_cast<uint32_t>(block.getBinding()), BindingKind::storageBuffer});
+    }
+    std::sort(bindings.begin(), bindings.end(),
+              [](const KernelBinding& a, const KernelBinding& b) { return a.binding < b.binding; });
+    return bindings;
+}
+
+uint32_t reflectPushConstantBytes(const glslang::TProgram& program) {
+    uint32_t bytes = 0;
+    for (int i = 0; i < program.getNumUniformBlocks(); ++i) {
+        const glslang::TObjectReflection& block = program.getUniformBlock(i);
+        if (block.getType()->getQualifier().layoutPushConstant)
+            bytes = static_cast<uint32_t>(block.size);
+    }
+    return bytes;
+}
+
+void rejectClashes(const KernelCode& code) {
+    for (size_t i = 1; i < code.bindings.size(); ++i)
+        if (code.bindings[i].binding == code.bindings[i - 1].binding)
+            throw Error(fmt::format("kernel {}: {} and {} share binding {}", code.name,
+                                    code.bindings[i - 1].name, code.bindings[i].name,
+                                    code.bindings[i].binding));
+}
+
+} // namespace
+
+KernelCode compileKernel(const std::filesystem::path& file, const std::filesystem::path& includeRoot) {
+    initialiseGlslang();
+    const std::string source = readFile(file);
+    const std::string fileName = file.string();
+    const char* text = source.c_str();
+    const int length = static_cast<int>(source.size());
+    const char* name = fileName.c_str();
+
+    glslang::TShader shader(EShLangCompute);
+    shader.setStringsWithLengthsAndNames(&text, &length, &name, 1);
+    shader.setPreamble("#extension GL_GOOGLE_include_directive : require\n");
+    shader.setEnvInput(glslang::EShSourceGlsl, EShLangCompute, glslang::EShClientVulkan, 120);
+    shader.setEnvClient(glslang::EShClientVulkan, glslang::EShTargetVulkan_1_2);
+    shader.setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_5);
+    const auto messages = static_cast<EShMessages>(EShMsgSpvRules | EShMsgVulkanRules);
+    RootIncluder includer(includeRoot);
+    const int defaultVersion = 460;
+    if (!shader.parse(GetDefaultResources(), defaultVersion, false, messages, includer))
+        throw Error(fmt::format("cannot compile {}:\n{}", fileName, shader.getInfoLog()));
+
+    glslang::TProgram program;
+    program.addShader(&shader);
+    if (!program.link(messages) ||
+        !program.buildReflection(EShReflectionSeparateBuffers | EShReflectionAllBlockVariables))
+        throw Error(fmt::format("cannot link {}:\n{}", fileName, program.getInfoLog()));
+
+    KernelCode code;
+    code.name = file.stem().string();
+    code.bindings = reflectBindings(program);
+    code.pushConstantBytes = reflectPushConstantBytes(program);
+    rejectClashes(code);
+    glslang::SpvOptions options;
+    options.validate = false; // the validation layer checks every module in the device tests
+    glslang::GlslangToSpv(*program.getIntermediate(EShLangCompute), code.spirv, &options);
+    return code;
+}
+
+} // namespace lavalight::gpu

@@ -1,0 +1,35 @@
+// Compiles GLSL compute kernels to SPIR-V with glslang, in process: the build, the program and the tests share this code.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace lavalight::gpu {
+
+enum class BindingKind { storageBuffer, uniformTexelBuffer };
+
+// One resource of a kernel, in descriptor set 0. `name` is the block's name for storage buffers and the variable's
+// name for texel buffers.
+struct KernelBinding {
+    std::string name;
+    uint32_t binding = 0;
+    BindingKind kind = BindingKind::storageBuffer;
+};
+
+// A compiled kernel with what is needed to build its pipeline layout.
+struct KernelCode {
+    std::string name; // file name without folder and extension
+    std::vector<uint32_t> spirv;
+    std::vector<KernelBinding> bindings; // ascending binding numbers
+    uint32_t pushConstantBytes = 0;
+};
+
+// Compiles the entry point in `file` (GLSL 4.60, SPIR-V 1.5 for Vulkan 1.2). #include "a/b.glsl" is resolved in
+// `includeRoot` alone, so that a file is found by the same name from everywhere; each file is included once.
+// Throws Error with the compiler's message, file names and line numbers.
+[[nodiscard]] KernelCode compileKernel(const std::filesystem::path& file,
+                                       const std::filesystem::path& includeRoot);
+
+} // namespace lavalight::gpu

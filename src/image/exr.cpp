@@ -1,0 +1,285 @@
+#include "image/exr.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <exception>
+#include <new>
+#include <string_view>
+#include <thread>
+
+#include <ImfChannelList.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfInputFile.h>
+#include <ImfOutputFile.h>
+#include <ImfStandardAttributes.h>
+#include <ImfStringAttribute.h>
+#include <ImfThreading.h>
+#include <fmt/format.h>
+#include <openexr.h>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "base/log.h"
+
+namespace lavalight {
+namespace {
+
+constexpr std::string_view kPrefix = "lavalight:";
+constexpr const char* kSamples = "samples";
+constexpr std::array<const char*, 3> kColor = {"R", "G", "B"};
+constexpr std::array<const char*, 3> kVariance = {"variance.R", "variance.G", "variance.B"};
+constexpr const char* kLuminance = "Y";
+
+// ZIP keeps every core busy: 3840 x 2160 with our seven channels takes seconds on one.
+void useAllCores() {
+    const int cores = static_cast<int>(std::thread::hardware_concurrency());
+    if (Imf::globalThreadCount() != cores)
+        Imf::setGlobalThreadCount(cores);
+}
+
+// --- writing ---
+
+// OpenEXR only reads from the slices of a file that it writes, but asks for pointers to mutable data.
+template <typename T>
+Imf::Slice outputSlice(Imf::PixelType type, const T* first, size_t stride, uint32_t width) {
+    char* base = const_cast<char*>(reinterpret_cast<const char*>(first));
+    return {type, base, stride, stride * width};
+}
+
+void addColor(Imf::Header& header, Imf::FrameBuffer& buffer, const std::array<const char*, 3>& names,
+              const Image& image) {
+    for (int c = 0; c < 3; ++c) {
+        header.channels().insert(names[c], Imf::Channel(Imf::FLOAT));
+        buffer.insert(names[c],
+                      outputSlice(Imf::FLOAT, &image.pixels.front()[c], sizeof(glm::vec3), image.width));
+    }
+}
+
+void writeChannels(const std::filesystem::path& part, const Rendering& rendering, const Metadata& metadata) {
+    const Image& image = rendering.radiance;
+    const auto height = static_cast<int>(image.height);
+    Imf::Header header(static_cast<int>(image.width), height);
+    header.compression() = Imf::ZIP_COMPRESSION;
+    Imf::addChromaticities(header, Imf::Chromaticities()); // the default is Rec. 709
+    for (const auto& [key, value] : metadata)
+        header.insert(std::string(kPrefix) + key, Imf::StringAttribute(value));
+    Imf::FrameBuffer buffer;
+    addColor(header, buffer, kColor, image);
+    addColor(header, buffer, kVariance, rendering.variance);
+    header.channels().insert(kSamples, Imf::Channel(Imf::UINT));
+    buffer.insert(kSamples,
+                  outputSlice(Imf::UINT, rendering.sampleCounts.data(), sizeof(uint32_t), image.width));
+    Imf::OutputFile file(part.c_str(), header);
+    file.setFrameBuffer(buffer);
+    file.writePixels(height);
+}
+
+// --- reading ---
+
+// The library's handler for errors; the context's user data is the string that keeps the message.
+void keepMessage(exr_const_context_t context, exr_result_t, const char* message) {
+    void* kept = nullptr;
+    if (exr_get_user_data(context, &kept) == EXR_ERR_SUCCESS && kept != nullptr)
+        *static_cast<std::string*>(kept) = message;
+}
+
+// The C++ reader allocates whatever a header claims (2 GB for one damaged attribute), so the C reader, which
+// holds each claim against the size of the file and against our limits, goes first.
+void requireSaneHeader(const std::filesystem::path& path) {
+    constexpr int kLimit = static_cast<int>(kMaxImageSide);
+    std::string message;
+    exr_context_initializer_t settings = EXR_DEFAULT_CONTEXT_INITIALIZER;
+    settings.error_handler_fn = keepMessage;
+    settings.user_data = &message;
+    settings.max_image_width = settings.max_image_height = kLimit;
+    settings.max_tile_width = settings.max_tile_height = kLimit;
+    exr_context_t context = nullptr;
+    const exr_result_t result = exr_start_read(&context, path.c_str(), &settings);
+    exr_finish(&context);
+    if (!message.empty()) // it skips damaged attributes, and reports success all the same
+        throw Error(message);
+    if (result != EXR_ERR_SUCCESS)
+        throw Error(exr_get_default_error_message(result));
+}
+
+std::string channelNames(const Imf::ChannelList& channels) {
+    std::string names;
+    for (auto i = channels.begin(); i != channels.end(); ++i)
+        names += (names.empty() ? "" : ", ") + std::string(i.name());
+    return names;
+}
+
+// Subsampled channels do not count.
+bool hasChannel(const Imf::ChannelList& channels, const char* name) {
+    const Imf::Channel* channel = channels.findChannel(name);
+    return channel != nullptr && channel->xSampling == 1 && channel->ySampling == 1;
+}
+
+bool hasAll(const Imf::ChannelList& channels, const std::array<const char*, 3>& names) {
+    return std::all_of(names.begin(), names.end(), [&](const char* n) { return hasChannel(channels, n); });
+}
+
+// Y beside chroma (RY, BY) is an encoded colour image, which grey would misread.
+bool isLuminance(const Imf::ChannelList& channels) {
+    const bool chroma = channels.findChannel("RY") != nullptr || channels.findChannel("BY") != nullptr;
+    return hasChannel(channels, kLuminance) && !chroma;
+}
+
+void warnIfNotRec709(const Imf::Header& header, const std::filesystem::path& path) {
+    if (!Imf::hasChromaticities(header))
+        return;
+    const Imf::Chromaticities file = Imf::chromaticities(header);
+    const Imf::Chromaticities ours;
+    const auto equal = [](const Imath::V2f& a, const Imath::V2f& b) {
+        constexpr float kRounding =
+            1e-3f; // xy; writers store three or four digits, and no two standards are so close
+        return (a - b).length() < kRounding;
+    };
+    if (!equal(file.red, ours.red) || !equal(file.green, ours.green) || !equal(file.blue, ours.blue))
+        spdlog::warn("{}: its primaries are not those of Rec. 709; its colours are used unconverted",
+                     path.string());
+}
+
+// Pixel arrays bound to the channels of a file. They grow band by band into a reservation made at the start,
+// so that a small damaged file that claims 16384 x 16384 pixels fails before we have touched gigabytes.
+class PixelReader {
+  public:
+    explicit PixelReader(Imf::InputFile& file)
+        : file_(file), window_(file.header().dataWindow()),
+          width_(static_cast<uint32_t>(window_.max.x - window_.min.x + 1)),
+          height_(static_cast<uint32_t>(window_.max.y - window_.min.y + 1)) {}
+
+    void bindColor(Image& image, const std::array<const char*, 3>& names) {
+        reserve(image);
+        for (int c = 0; c < 3; ++c)
+            bind(names[c], Imf::FLOAT, reinterpret_cast<float*>(image.pixels.data()) + c, sizeof(glm::vec3));
+    }
+
+    void bindGrey(Image& image) {
+        reserve(image);
+        bind(kLuminance, Imf::FLOAT, image.pixels.data(), sizeof(glm::vec3));
+    }
+
+    void bindCounts(std::vector<uint32_t>& counts) {
+        counts.reserve(size_t{width_} * height_);
+        counts_ = &counts;
+        bind(kSamples, Imf::UINT, counts.data(), sizeof(uint32_t));
+    }
+
+    void read() {
+        constexpr uint32_t kBand = 256; // rows; at most 50 MB of colour ahead of the data
+        file_.setFrameBuffer(buffer_);
+        for (uint32_t row = 0; row < height_; row += kBand) {
+            const uint32_t end = std::min(row + kBand, height_);
+            for (Image* image : images_)
+                image->pixels.resize(size_t{end} * width_);
+            if (counts_ != nullptr)
+                counts_->resize(size_t{end} * width_);
+            file_.readPixels(window_.min.y + static_cast<int>(row),
+                             window_.min.y + static_cast<int>(end) - 1);
+        }
+    }
+
+  private:
+    void reserve(Image& image) {
+        image.width = width_;
+        image.height = height_;
+        image.pixels.reserve(size_t{width_} * height_);
+        images_.push_back(&image);
+    }
+
+    void bind(const char* name, Imf::PixelType type, const void* first, size_t stride) {
+        buffer_.insert(name, Imf::Slice::Make(type, first, window_, stride, stride * width_));
+    }
+
+    Imf::InputFile& file_;
+    const Imath::Box2i window_;
+    const uint32_t width_;
+    const uint32_t height_;
+    std::vector<Image*> images_;
+    std::vector<uint32_t>* counts_ = nullptr;
+    Imf::FrameBuffer buffer_;
+};
+
+Metadata readMetadata(const Imf::Header& header) {
+    Metadata metadata;
+    for (auto i = header.begin(); i != header.end(); ++i) {
+        const auto* text = dynamic_cast<const Imf::StringAttribute*>(&i.attribute());
+        if (text == nullptr)
+            continue;
+        const std::string_view name = i.name();
+        metadata.emplace_back(name.starts_with(kPrefix) ? name.substr(kPrefix.size()) : name, text->value());
+    }
+    return metadata;
+}
+
+ExrFile readChannels(Imf::InputFile& file) {
+    const Imf::ChannelList& channels = file.header().channels();
+    const bool grey = !hasAll(channels, kColor);
+    if (grey && !isLuminance(channels))
+        throw Error(fmt::format("it lacks channels R, G, B (or Y alone) at full resolution; it has {}",
+                                channelNames(channels)));
+    if (!file.isComplete())
+        throw Error("it is incomplete");
+    ExrFile result;
+    PixelReader reader(file);
+    if (grey)
+        reader.bindGrey(result.radiance);
+    else
+        reader.bindColor(result.radiance, kColor);
+    if (hasAll(channels, kVariance))
+        reader.bindColor(result.variance.emplace(), kVariance);
+    if (hasChannel(channels, kSamples))
+        reader.bindCounts(result.sampleCounts.emplace());
+    reader.read();
+    if (grey)
+        for (glm::vec3& pixel : result.radiance.pixels)
+            pixel = glm::vec3(pixel.x);
+    result.metadata = readMetadata(file.header());
+    return result;
+}
+
+// OpenEXR's messages begin with the file's name, which ours name already.
+std::string reason(const std::exception& error, const std::filesystem::path& path) {
+    const std::string message = error.what();
+    const std::string name = fmt::format("\"{}\". ", path.string());
+    const size_t at = message.find(name);
+    return at == std::string::npos ? message : message.substr(at + name.size());
+}
+
+} // namespace
+
+void writeExr(const std::filesystem::path& path, const Rendering& rendering, const Metadata& metadata) {
+    [[maybe_unused]] const Image& image = rendering.radiance;
+    assert(image.width > 0 && image.height > 0 && image.width <= kMaxImageSide &&
+           image.height <= kMaxImageSide);
+    assert(rendering.variance.pixels.size() == image.pixels.size());
+    assert(rendering.sampleCounts.size() == image.pixels.size());
+    useAllCores();
+    writeFileAtomically(path, [&](const std::filesystem::path& part) {
+        try {
+            writeChannels(part, rendering, metadata);
+        } catch (const std::exception& error) {
+            throw Error(fmt::format("cannot write {}: {}", path.string(), reason(error, part)));
+        }
+    });
+}
+
+ExrFile readExr(const std::filesystem::path& path) {
+    requireRegularFile(path);
+    useAllCores();
+    try {
+        requireSaneHeader(path);
+        Imf::InputFile file(path.c_str());
+        warnIfNotRec709(file.header(), path);
+        return readChannels(file);
+    } catch (const std::bad_alloc&) {
+        throw Error(fmt::format("cannot read {}: its pixels do not fit into memory", path.string()));
+    } catch (const std::exception& error) {
+        throw Error(fmt::format("cannot read {}: {}", path.string(), reason(error, path)));
+    }
+}
+
+} // namespace lavalight

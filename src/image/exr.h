@@ -1,0 +1,39 @@
+// OpenEXR files: our renderings out, anybody's images in.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "image/image.h"
+
+namespace lavalight {
+
+// Key and value; keys are non-empty and unique.
+using Metadata = std::vector<std::pair<std::string, std::string>>;
+
+// Writes a scan-line file with ZIP compression, all or nothing (base/file.h). Channels:
+//   R G B                              32-bit float, linear Rec. 709
+//   variance.R variance.G variance.B   32-bit float, the variance of each pixel's mean
+//   samples                            32-bit unsigned, how many samples each pixel rests on
+// Metadata become string attributes named "lavalight:<key>". Equal input gives equal bytes. Throws Error.
+void writeExr(const std::filesystem::path& path, const Rendering& rendering, const Metadata& metadata);
+
+struct ExrFile {
+    Image radiance;                                    // the data window, wherever it lies
+    std::optional<Image> variance;                     // where the file has all three variance channels
+    std::optional<std::vector<uint32_t>> sampleCounts; // where the file has a samples channel
+    Metadata metadata; // string attributes by name, "lavalight:" taken off, in alphabetical order of the full
+                       // names
+};
+
+// Reads the first part of any scan-line or tiled file with R, G and B, or with luminance Y alone, in half,
+// float or unsigned; other channels are ignored. Colours are taken as linear Rec. 709; a file that says
+// otherwise gets a warning. Throws Error for whatever is no such file: missing, damaged, incomplete, larger
+// than kMaxImageSide, without colour.
+[[nodiscard]] ExrFile readExr(const std::filesystem::path& path);
+
+} // namespace lavalight

@@ -1,0 +1,30 @@
+// The triangles that emit light, and how to pick one by its power.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "light/alias_table.h"
+#include "scene/scene.h"
+#include "shared/bvh.h"
+
+namespace lavalight {
+
+struct Emitter {
+    uint32_t triangle = 0; // id: meshes in order, triangles in order
+    float area = 0.0f;     // m^2, of one side
+    double power = 0.0;    // W, mean of the three channels, of both sides where both emit
+};
+
+struct Emitters {
+    std::vector<Emitter> list;
+    std::vector<AliasEntry> table;           // beside `list`, by power; its pmf serves sampling and MIS
+    std::vector<uint32_t> emitterOfTriangle; // per triangle of the scene: index into `list` or kNoEmitter
+    double totalPower = 0.0;                 // W
+};
+
+// Lists triangles of emissive materials whose area and power are positive. Throws Error, naming the material,
+// for a power that is not finite.
+[[nodiscard]] Emitters findEmitters(const Scene& scene);
+
+} // namespace lavalight

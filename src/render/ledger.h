@@ -1,0 +1,23 @@
+// The bias ledger: whatever was on or happened that makes the image's mean differ from the scene's.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "render/film.h"
+#include "scene/scene.h"
+
+namespace lavalight {
+
+struct LedgerEntry {
+    std::string cause;  // fixed word, e.g. "cut-paths"
+    std::string detail; // figures or names
+};
+
+// Empty for an unbiased image of everything that the scene asks for.
+[[nodiscard]] std::vector<LedgerEntry> makeLedger(const Scene& scene, const FilmTallies& tallies);
+
+// One line for the EXR header: "none", or entries joined by "; ".
+[[nodiscard]] std::string ledgerText(const std::vector<LedgerEntry>& ledger);
+
+} // namespace lavalight

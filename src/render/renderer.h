@@ -1,0 +1,57 @@
+// A render from a scene to its film: the public face of render/.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
+
+#include "gpu/commands.h"
+#include "gpu/device.h"
+#include "image/image.h"
+#include "render/film.h"
+#include "render/gpu_scene.h"
+#include "render/settings.h"
+#include "render/wavefront.h"
+#include "scene/scene.h"
+
+namespace lavalight {
+
+class Renderer {
+  public:
+    // Uploads the scene and builds the kernels. `settings.width` must be resolved (resolveSize) and the settings
+    // checked. The device must outlive the renderer. Throws Error where the device's limits are exceeded.
+    Renderer(gpu::Device& device, const Scene& scene, const Camera& camera, const RenderSettings& settings);
+    Renderer(const Renderer&) = delete; // the wavefront refers to the scene and the film
+    Renderer& operator=(const Renderer&) = delete;
+
+    // Asked between waves with the fraction done so far, in [0, 1]; false ends the render early.
+    using KeepGoing = std::function<bool(double fraction)>;
+
+    // Takes all samples that the settings ask for. The film is valid after an early end too: each pixel knows how many
+    // samples it has.
+    void render(const KeepGoing& keepGoing);
+
+    [[nodiscard]] const Film& film() const { return film_; }
+    [[nodiscard]] Rendering rendering() const { return film_.resolve(); }
+    [[nodiscard]] const GpuScene& scene() const { return scene_; }
+    [[nodiscard]] const Wavefront& wavefront() const { return wavefront_; }
+
+  private:
+    [[nodiscard]] bool renderBand(size_t band, uint32_t firstSample, uint32_t sampleCount,
+                                  const KeepGoing& keepGoing);
+
+    RenderSettings settings_;
+    GpuScene scene_;
+    Film film_;
+    Wavefront wavefront_;
+    uint64_t pathsDone_ = 0;
+};
+
+// Width from the camera's aspect ratio where the settings leave it open (16:9 where the camera does too).
+[[nodiscard]] RenderSettings resolveSize(RenderSettings settings, const Camera& camera);
+
+// Parameters for the kernels; the vertical field of view is kept whatever the image's aspect ratio.
+[[nodiscard]] FrameParameters makeFrame(const Scene& scene, const Camera& camera, const RenderSettings& settings);
+
+} // namespace lavalight

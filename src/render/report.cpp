@@ -1,0 +1,97 @@
+#include "render/report.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "base/version.h"
+
+namespace lavalight {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double perSecond(uint64_t count, double seconds) {
+    return seconds > 0.0 ? static_cast<double>(count) / seconds : 0.0;
+}
+
+Json pairsJson(const std::vector<std::pair<std::string, std::string>>& pairs) {
+    Json json = Json::object();
+    for (const auto& [key, value] : pairs)
+        json[key] = value;
+    return json;
+}
+
+Json kernelsJson(const gpu::KernelTimes& kernels) {
+    Json json = Json::object();
+    for (const auto& [name, time] : kernels)
+        json[name] = {{"seconds", time.seconds}, {"dispatches", time.dispatches}};
+    return json;
+}
+
+Json stagesJson(const StageTimes& stages) {
+    Json json = Json::object();
+    for (const auto& [name, seconds] : stages)
+        json[name] = seconds;
+    return json;
+}
+
+Json raysJson(const RenderReport& report) {
+    return {{"camera", report.rays.camera},
+            {"indirect", report.rays.indirect},
+            {"shadow", report.rays.shadow},
+            {"perSecond", perSecond(report.rays.total(), report.renderSeconds)}};
+}
+
+Json ledgerJson(const std::vector<LedgerEntry>& ledger) {
+    Json json = Json::array();
+    for (const LedgerEntry& entry : ledger)
+        json.push_back({{"cause", entry.cause}, {"detail", entry.detail}});
+    return json;
+}
+
+} // namespace
+
+Metadata exrMetadata(const RenderReport& report) {
+    Metadata metadata{{"version", std::string(kVersion)},
+                      {"scene", report.scene},
+                      {"camera", report.camera},
+                      {"device", report.device.name},
+                      {"driver", report.device.driver},
+                      {"samples-per-pixel", fmt::format("{:.6g}", static_cast<double>(report.samples) /
+                                                                      (static_cast<double>(report.settings.width) *
+                                                                       report.settings.height))},
+                      {"render-seconds", fmt::format("{:.3f}", report.renderSeconds)},
+                      {"complete", report.isComplete ? "yes" : "no, interrupted"},
+                      {"bias-ledger", ledgerText(report.ledger)}};
+    for (const auto& [key, value] : describe(report.settings))
+        metadata.emplace_back("option:" + key, value);
+    return metadata;
+}
+
+std::string reportJson(const RenderReport& report) {
+    Json json;
+    json["version"] = kVersion;
+    json["scene"] = report.scene;
+    json["camera"] = report.camera;
+    json["triangles"] = report.triangles;
+    json["device"] = {{"name", report.device.name},
+                      {"driver", report.device.driver},
+                      {"type", report.device.type},
+                      {"api", report.device.apiVersion}};
+    json["settings"] = pairsJson(describe(report.settings));
+    json["waveSize"] = report.settings.waveSize;
+    json["complete"] = report.isComplete;
+    json["seconds"] = stagesJson(report.stages);
+    json["kernels"] = kernelsJson(report.kernels);
+    json["rays"] = raysJson(report);
+    json["samples"] = {{"total", report.samples},
+                       {"perSecond", perSecond(report.samples, report.renderSeconds)},
+                       {"dropped", report.tallies.droppedSamples}};
+    json["meanRadiance"] = {report.meanRadiance.x, report.meanRadiance.y, report.meanRadiance.z};
+    json["memory"] = {{"sceneBytes", report.sceneBytes}, {"peakDeviceBytes", report.peakDeviceBytes}};
+    json["ledger"] = ledgerJson(report.ledger);
+    json["warnings"] = report.warnings;
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+} // namespace lavalight

@@ -1,0 +1,42 @@
+// What a render was and what it cost: the JSON report and the EXR header.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "gpu/device.h"
+#include "image/exr.h"
+#include "render/ledger.h"
+#include "render/renderer.h"
+#include "render/settings.h"
+
+namespace lavalight {
+
+// Wall-clock seconds of the stages, in order.
+using StageTimes = std::vector<std::pair<std::string, double>>;
+
+struct RenderReport {
+    std::string scene;
+    std::string camera;
+    RenderSettings settings;
+    gpu::DeviceDescription device;
+    StageTimes stages;
+    double renderSeconds = 0.0;
+    gpu::KernelTimes kernels;
+    RayCounts rays;
+    uint64_t samples = 0; // over all pixels
+    FilmTallies tallies;
+    uint64_t sceneBytes = 0;
+    uint64_t peakDeviceBytes = 0;
+    uint64_t triangles = 0;
+    std::vector<LedgerEntry> ledger;
+    std::vector<std::string> warnings;
+    glm::dvec3 meanRadiance{0.0};
+    bool isComplete = true; // false: interrupted
+};
+
+[[nodiscard]] Metadata exrMetadata(const RenderReport& report);
+[[nodiscard]] std::string reportJson(const RenderReport& report);
+
+} // namespace lavalight

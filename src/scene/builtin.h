@@ -1,0 +1,17 @@
+// Scenes by name: those that the program carries, or files.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace lavalight {
+
+// What loadScene knows without a file, for help and messages; "dense-N" stands for any number of triangles.
+[[nodiscard]] std::vector<std::string> builtinNames();
+
+// A built-in scene by its name, else the .gltf or .glb file of that path. Throws Error.
+[[nodiscard]] Scene loadScene(const std::string& nameOrPath);
+
+} // namespace lavalight

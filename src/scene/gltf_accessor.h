@@ -1,0 +1,53 @@
+// Reads the elements of glTF accessors: all component types, strides, sparse and zero-filled ones.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include <glm/glm.hpp>
+
+#include "scene/gltf_document.h"
+
+namespace lavalight {
+
+// One accessor of a document. The document must outlive it.
+class AccessorView {
+  public:
+    // Checks that every element lies inside its buffer view and the view inside its buffer. Throws Error
+    // naming the accessor and the figures.
+    AccessorView(const GltfDocument& document, int accessor);
+    AccessorView(const AccessorView&) = delete;
+    AccessorView& operator=(const AccessorView&) = delete;
+
+    [[nodiscard]] size_t count() const { return count_; }
+    [[nodiscard]] const std::string& name() const { return name_; } // for messages
+    [[nodiscard]] bool isVec3() const { return type_ == TINYGLTF_TYPE_VEC3; }
+    [[nodiscard]] bool isUnsignedScalar() const;
+
+    // Element i < count() of a VEC3; normalized integers are mapped to [0, 1] or [-1, 1]. May be infinite or
+    // NaN.
+    [[nodiscard]] glm::vec3 vec3At(size_t i) const;
+
+    // Element i < count() of a scalar of an unsigned integer type.
+    [[nodiscard]] uint32_t unsignedAt(size_t i) const;
+
+  private:
+    void applySparse(const GltfDocument& document, const tinygltf::Accessor& accessor);
+
+    std::string name_;
+    size_t count_ = 0;
+    int type_ = 0;
+    int componentType_ = 0;
+    bool normalized_ = false;
+    size_t elementSize_ = 0;  // bytes
+    size_t packedStride_ = 0; // bytes from one element to the next where nothing lies between
+    size_t stride_ = 0;       // bytes from one element to the next
+    std::string_view bytes_;  // from the first byte of the first element
+    std::string own_;         // what bytes_ views where sparse elements have been replaced
+};
+
+// Throws Error unless all accessors and buffer views of the document are sound, used or not.
+void checkAccessors(const GltfDocument& document);
+
+} // namespace lavalight

@@ -1,0 +1,107 @@
+// The import from bytes to Scene, step by step.
+#include "scene/gltf_import.h"
+
+#include <algorithm>
+#include <new>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "base/file.h"
+#include "scene/framing_camera.h"
+#include "scene/gltf_accessor.h"
+#include "scene/gltf_camera.h"
+#include "scene/gltf_document.h"
+#include "scene/gltf_material.h"
+#include "scene/gltf_mesh.h"
+#include "scene/gltf_nodes.h"
+
+namespace lavalight {
+namespace {
+
+void noteIgnored(const GltfDocument& document, const std::vector<PlacedNode>& nodes, GltfNotes& notes) {
+    for (const std::string& extension : document.ignoredExtensions)
+        notes.add(fmt::format("the extension {} is not supported and was ignored", printable(extension)));
+    if (document.textureCount > 0)
+        notes.add(fmt::format("textures are not read yet: {} textures ignored", document.textureCount));
+    if (document.animationCount > 0)
+        notes.add(
+            fmt::format("animations are not evaluated yet: {} ignored, nodes stay where they are placed",
+                        document.animationCount));
+    for (const PlacedNode& placed : nodes) {
+        const auto index = static_cast<size_t>(placed.node);
+        const tinygltf::Node& node = document.model.nodes[index];
+        if (node.skin >= 0)
+            notes.addObject(
+                "skins are not evaluated yet, their meshes are shown in the pose they are stored in",
+                describe("node", index, node.name));
+    }
+}
+
+Bounds boundsOf(const std::vector<Mesh>& meshes) {
+    if (meshes.empty())
+        return {};
+    Bounds bounds{meshes.front().positions.front(), meshes.front().positions.front()};
+    for (const Mesh& mesh : meshes) {
+        for (const glm::vec3& position : mesh.positions) {
+            bounds.lower = glm::min(bounds.lower, position);
+            bounds.upper = glm::max(bounds.upper, position);
+        }
+    }
+    return bounds;
+}
+
+bool hasEmission(const Scene& scene) {
+    return std::any_of(scene.meshes.begin(), scene.meshes.end(), [&](const Mesh& mesh) {
+        return scene.materials[mesh.material].emission != glm::vec3(0.0f);
+    });
+}
+
+Scene buildScene(const GltfDocument& document) {
+    checkAccessors(document);
+    GltfNotes notes;
+    Scene scene;
+    scene.source = document.source;
+    scene.extensionsUsed = document.extensionsUsed;
+    scene.ignoredExtensions = document.ignoredExtensions;
+
+    const std::vector<PlacedNode> nodes = placeNodes(document);
+    noteIgnored(document, nodes, notes);
+    scene.materials = readMaterials(document, notes);
+    const auto defaultMaterial = static_cast<uint32_t>(scene.materials.size() - 1);
+    scene.meshes = readMeshes(document, nodes, defaultMaterial, notes);
+    scene.bounds = boundsOf(scene.meshes);
+    scene.cameras = readCameras(document, nodes, notes);
+    if (scene.meshes.empty())
+        notes.add("the scene has no triangles");
+    if (scene.cameras.empty())
+        scene.cameras.push_back(framingCamera(scene.bounds));
+    if (!hasEmission(scene)) {
+        scene.environment = glm::vec3(1.0f);
+        notes.add("the scene has no light: a constant white environment stands in");
+    }
+    scene.warnings = notes.lines();
+    return scene;
+}
+
+Scene import(const GltfSource& source, std::string_view bytes) {
+    try {
+        return buildScene(parseGltf(bytes, source));
+    } catch (const std::bad_alloc&) {
+        throw gltfError(source.name, "the memory does not suffice");
+    } catch (const std::length_error&) {
+        throw gltfError(source.name, "the memory does not suffice");
+    }
+}
+
+} // namespace
+
+Scene importGltf(const std::filesystem::path& path) {
+    return import({path.string(), path.parent_path()}, readFile(path));
+}
+
+Scene importGltf(const std::string& name, std::string_view bytes) {
+    return import({name, std::nullopt}, bytes);
+}
+
+} // namespace lavalight

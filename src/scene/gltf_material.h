@@ -1,0 +1,15 @@
+// Reads the materials of a glTF file.
+#pragma once
+
+#include <vector>
+
+#include "scene/gltf_document.h"
+#include "scene/scene.h"
+
+namespace lavalight {
+
+// One Material per material of the file, in its order, and a last one for primitives without a material.
+// Factors out of their range are clamped and noted; textures and alpha are noted as not read.
+[[nodiscard]] std::vector<Material> readMaterials(const GltfDocument& document, GltfNotes& notes);
+
+} // namespace lavalight

@@ -1,0 +1,19 @@
+// Reads the meshes of a glTF file and bakes their instances to world space.
+#pragma once
+
+#include <vector>
+
+#include "scene/gltf_document.h"
+#include "scene/gltf_nodes.h"
+#include "scene/scene.h"
+
+namespace lavalight {
+
+// One Mesh per primitive and node that shows it, without meshes that have no triangles. All positions are
+// finite and used by a triangle, and every triangle has a normal in single precision; what was dropped or
+// repaired is noted. Primitives without a material get `defaultMaterial`. Throws Error for data that does not
+// fit together, and for more triangles than the renderer could hold.
+[[nodiscard]] std::vector<Mesh> readMeshes(const GltfDocument& document, const std::vector<PlacedNode>& nodes,
+                                           uint32_t defaultMaterial, GltfNotes& notes);
+
+} // namespace lavalight

@@ -1,0 +1,119 @@
+// Node transforms and hierarchy (glTF 2.0 specification, sections 3.5.2 and 3.5.3); loops instead of
+// recursion, because files may nest nodes deeper than the stack.
+#include "scene/gltf_nodes.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+namespace lavalight {
+namespace {
+
+std::string nameOf(const GltfDocument& document, size_t node) {
+    return describe("node", node, document.model.nodes[node].name);
+}
+
+// The parent of each node, -1 for roots.
+std::vector<int> findParents(const GltfDocument& document) {
+    const auto& nodes = document.model.nodes;
+    std::vector<int> parents(nodes.size(), -1);
+    for (size_t i = 0; i < nodes.size(); ++i) {
+        for (const int child : nodes[i].children) {
+            int& parent = parents[static_cast<size_t>(child)];
+            if (parent >= 0)
+                throw document.error(fmt::format("{} is a child of both node {} and node {}",
+                                                 nameOf(document, static_cast<size_t>(child)), parent, i));
+            parent = static_cast<int>(i);
+        }
+    }
+    return parents;
+}
+
+// With one parent each, nodes form trees and rings. Climbs from each node; each is passed once.
+void requireNoCycle(const GltfDocument& document, const std::vector<int>& parents) {
+    constexpr size_t kUnseen = static_cast<size_t>(-1);
+    std::vector<size_t> climb(parents.size(), kUnseen); // the start of the climb that came by
+    for (size_t start = 0; start < parents.size(); ++start) {
+        for (int node = static_cast<int>(start); node >= 0; node = parents[static_cast<size_t>(node)]) {
+            size_t& seen = climb[static_cast<size_t>(node)];
+            if (seen == start)
+                throw document.error(nameOf(document, static_cast<size_t>(node)) +
+                                     " is among its own descendants: the node graph is cyclic");
+            if (seen != kUnseen)
+                break;
+            seen = start;
+        }
+    }
+}
+
+std::vector<int> findRoots(const GltfDocument& document, const std::vector<int>& parents) {
+    const tinygltf::Model& model = document.model;
+    if (!model.scenes.empty()) {
+        const auto scene = static_cast<size_t>(std::max(model.defaultScene, 0));
+        for (const int node : model.scenes.at(scene).nodes) {
+            const int parent = parents[static_cast<size_t>(node)];
+            if (parent >= 0)
+                throw document.error(fmt::format("scene {} lists {}, which is a child of node {}", scene,
+                                                 nameOf(document, static_cast<size_t>(node)), parent));
+        }
+        return model.scenes[scene].nodes;
+    }
+    std::vector<int> roots;
+    for (size_t i = 0; i < parents.size(); ++i) {
+        if (parents[i] < 0)
+            roots.push_back(static_cast<int>(i));
+    }
+    return roots;
+}
+
+glm::dmat4 localTransform(const tinygltf::Node& node) {
+    if (node.matrix.size() == 16) {
+        glm::dmat4 matrix;
+        for (int i = 0; i < 16; ++i)
+            matrix[i / 4][i % 4] = node.matrix[static_cast<size_t>(i)];
+        return matrix;
+    }
+    glm::dmat4 matrix(1.0);
+    if (node.translation.size() == 3)
+        matrix = glm::translate(matrix, {node.translation[0], node.translation[1], node.translation[2]});
+    if (node.rotation.size() == 4) {
+        const glm::dquat rotation(node.rotation[3], node.rotation[0], node.rotation[1], node.rotation[2]);
+        // Exporters round; a quaternion that is not of unit length would scale. All zeros mean no rotation.
+        if (glm::length(rotation) > 0.0)
+            matrix *= glm::mat4_cast(glm::normalize(rotation));
+    }
+    if (node.scale.size() == 3)
+        matrix = glm::scale(matrix, {node.scale[0], node.scale[1], node.scale[2]});
+    return matrix;
+}
+
+} // namespace
+
+std::vector<PlacedNode> placeNodes(const GltfDocument& document) {
+    const std::vector<int> parents = findParents(document);
+    requireNoCycle(document, parents);
+    std::vector<PlacedNode> placed;
+    std::vector<bool> seen(parents.size(), false);
+    std::vector<PlacedNode> pending;
+    const std::vector<int> roots = findRoots(document, parents);
+    for (auto root = roots.rbegin(); root != roots.rend(); ++root)
+        pending.push_back({*root, glm::dmat4(1.0)});
+    while (!pending.empty()) {
+        PlacedNode next = pending.back();
+        pending.pop_back();
+        const auto index = static_cast<size_t>(next.node);
+        if (seen[index])
+            throw document.error(nameOf(document, index) + " is listed twice by the scene");
+        seen[index] = true;
+        const tinygltf::Node& node = document.model.nodes[index];
+        next.toWorld *= localTransform(node);
+        for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
+            pending.push_back({*child, next.toWorld});
+        placed.push_back(next);
+    }
+    return placed;
+}
+
+} // namespace lavalight

@@ -1,0 +1,23 @@
+// Walks the node hierarchy of a glTF scene.
+#pragma once
+
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "scene/gltf_document.h"
+
+namespace lavalight {
+
+// A node of the shown scene with its transform to world space.
+struct PlacedNode {
+    int node = -1;
+    glm::dmat4 toWorld{1.0}; // double: deep hierarchies multiply many
+};
+
+// The nodes of the default scene (of scene 0 where none is named, of all root nodes where there are no
+// scenes), parents before children. Throws Error unless the nodes form a forest: cycles, nodes with two
+// parents.
+[[nodiscard]] std::vector<PlacedNode> placeNodes(const GltfDocument& document);
+
+} // namespace lavalight

@@ -1,0 +1,119 @@
+// The table of gltf_schema_rules.h: all that Lavalight reads, and every reference between objects.
+#include "scene/gltf_schema_rules.h"
+
+namespace lavalight {
+namespace {
+
+PropertyRule required(std::string_view name, Kind kind) {
+    return {name, kind, Need::required};
+}
+PropertyRule optional(std::string_view name, Kind kind) {
+    return {name, kind};
+}
+PropertyRule numbers(std::string_view name, size_t length) {
+    return {name, Kind::number, Need::optional, length};
+}
+PropertyRule index(std::string_view name, std::string_view target, Need need = Need::optional) {
+    return {name, Kind::index, need, kNoArray, target};
+}
+PropertyRule indices(std::string_view name, std::string_view target) {
+    return {name, Kind::index, Need::optional, kAnyLength, target};
+}
+
+void addFileRules(std::vector<ObjectRule>& rules) {
+    rules.push_back({"",
+                     {required("asset", Kind::object),
+                      index("scene", "scenes"),
+                      {"extensionsUsed", Kind::text, Need::optional, kAnyLength},
+                      {"extensionsRequired", Kind::text, Need::optional, kAnyLength},
+                      {"extensions", Kind::object}}});
+    rules.push_back({"asset", {required("version", Kind::text), optional("minVersion", Kind::text)}});
+    rules.push_back({"scenes[]", {indices("nodes", "nodes"), optional("name", Kind::text)}});
+    rules.push_back({"nodes[]",
+                     {optional("name", Kind::text), indices("children", "nodes"), index("mesh", "meshes"),
+                      index("camera", "cameras"), index("skin", "skins"), numbers("matrix", 16),
+                      numbers("translation", 3), numbers("rotation", 4), numbers("scale", 3)}});
+    rules.push_back({"cameras[]", {required("type", Kind::text), optional("name", Kind::text)}});
+    rules.push_back({"cameras[].perspective",
+                     {required("yfov", Kind::number), required("znear", Kind::number),
+                      optional("zfar", Kind::number), optional("aspectRatio", Kind::number)}});
+    rules.push_back({"cameras[].orthographic",
+                     {required("xmag", Kind::number), required("ymag", Kind::number),
+                      required("zfar", Kind::number), required("znear", Kind::number)}});
+}
+
+void addDataRules(std::vector<ObjectRule>& rules) {
+    rules.push_back({"buffers[]", {required("byteLength", Kind::positive), optional("uri", Kind::text)}});
+    rules.push_back({"bufferViews[]",
+                     {index("buffer", "buffers", Need::required), optional("byteOffset", Kind::count),
+                      required("byteLength", Kind::count), optional("byteStride", Kind::stride)}});
+    rules.push_back({"accessors[]",
+                     {index("bufferView", "bufferViews"), optional("byteOffset", Kind::count),
+                      required("componentType", Kind::componentType), required("count", Kind::positive),
+                      required("type", Kind::elementType), optional("normalized", Kind::flag),
+                      optional("name", Kind::text)}});
+    rules.push_back({"accessors[].sparse",
+                     {required("count", Kind::small), required("indices", Kind::object),
+                      required("values", Kind::object)}});
+    rules.push_back({"accessors[].sparse.indices",
+                     {index("bufferView", "bufferViews", Need::required), optional("byteOffset", Kind::small),
+                      required("componentType", Kind::componentType)}});
+    rules.push_back(
+        {"accessors[].sparse.values",
+         {index("bufferView", "bufferViews", Need::required), optional("byteOffset", Kind::small)}});
+    rules.push_back(
+        {"meshes[]",
+         {{"primitives", Kind::object, Need::required, kAnyLength}, optional("name", Kind::text)}});
+    rules.push_back({"meshes[].primitives[]",
+                     {required("attributes", Kind::object), index("indices", "accessors"),
+                      index("material", "materials"), optional("mode", Kind::mode)}});
+    rules.push_back({"meshes[].primitives[].attributes", {index("*", "accessors")}});
+    rules.push_back({"meshes[].primitives[].targets[]", {index("*", "accessors")}});
+}
+
+void addMaterialRules(std::vector<ObjectRule>& rules) {
+    rules.push_back({"materials[]",
+                     {optional("name", Kind::text), numbers("emissiveFactor", 3),
+                      optional("alphaMode", Kind::text), optional("alphaCutoff", Kind::number),
+                      optional("doubleSided", Kind::flag), optional("extensions", Kind::object)}});
+    rules.push_back({"materials[].pbrMetallicRoughness",
+                     {numbers("baseColorFactor", 4), optional("metallicFactor", Kind::number),
+                      optional("roughnessFactor", Kind::number)}});
+    rules.push_back({"materials[].extensions.KHR_materials_emissive_strength",
+                     {optional("emissiveStrength", Kind::number)}});
+    rules.push_back({"materials[].extensions.KHR_materials_specular",
+                     {optional("specularFactor", Kind::number), numbers("specularColorFactor", 3)}});
+    rules.push_back({"materials[].extensions.KHR_materials_ior", {optional("ior", Kind::number)}});
+    for (const char* texture :
+         {"materials[].pbrMetallicRoughness.baseColorTexture",
+          "materials[].pbrMetallicRoughness.metallicRoughnessTexture", "materials[].normalTexture",
+          "materials[].occlusionTexture", "materials[].emissiveTexture",
+          "materials[].extensions.KHR_materials_specular.specularTexture",
+          "materials[].extensions.KHR_materials_specular.specularColorTexture"})
+        rules.push_back({texture, {index("index", "textures", Need::required)}});
+    rules.push_back({"textures[]", {index("sampler", "samplers")}});
+    rules.push_back({"images[]", {index("bufferView", "bufferViews"), optional("uri", Kind::text)}});
+}
+
+void addMotionRules(std::vector<ObjectRule>& rules) {
+    rules.push_back({"skins[]",
+                     {index("inverseBindMatrices", "accessors"), index("skeleton", "nodes"),
+                      indices("joints", "nodes")}});
+    rules.push_back({"animations[].channels[].target", {index("node", "nodes")}});
+    rules.push_back(
+        {"animations[].samplers[]",
+         {index("input", "accessors", Need::required), index("output", "accessors", Need::required)}});
+}
+
+} // namespace
+
+std::vector<ObjectRule> gltfSchemaRules() {
+    std::vector<ObjectRule> rules;
+    addFileRules(rules);
+    addDataRules(rules);
+    addMaterialRules(rules);
+    addMotionRules(rules);
+    return rules;
+}
+
+} // namespace lavalight

@@ -1,0 +1,45 @@
+// What the properties of a glTF file must be, as a table (glTF 2.0 specification, section 5).
+#pragma once
+
+#include <cstddef>
+#include <string_view>
+#include <vector>
+
+namespace lavalight {
+
+enum class Kind {
+    object,
+    text,
+    flag,
+    number,
+    count,
+    small, // a count that fits the int in which tinygltf keeps it
+    positive,
+    index,
+    stride,        // a multiple of 4 from 4 to 252
+    componentType, // 5120 to 5123, 5125 or 5126
+    elementType,   // "SCALAR", "VEC3", ...
+    mode,          // of a primitive: 0 to 6
+};
+enum class Need { optional, required };
+
+constexpr size_t kNoArray = 0;
+constexpr size_t kAnyLength = static_cast<size_t>(-1);
+
+struct PropertyRule {
+    std::string_view name; // "*": every member of the object
+    Kind kind;             // of the value, or of each element where `length` asks for an array
+    Need need = Need::optional;
+    size_t length = kNoArray;     // elements of the array
+    std::string_view target = {}; // the array of the root that an index points into
+};
+
+// `path` leads from the root to objects: "meshes[].primitives[]" is every primitive of every mesh.
+struct ObjectRule {
+    std::string_view path;
+    std::vector<PropertyRule> properties;
+};
+
+[[nodiscard]] std::vector<ObjectRule> gltfSchemaRules();
+
+} // namespace lavalight

@@ -1,0 +1,131 @@
+// `lavalight info`: what it says of scenes, and how it refuses what is none.
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "base/file.h"
+#include "support/run_program.h"
+#include "support/temporary_folder.h"
+
+namespace lavalight {
+namespace {
+
+using nlohmann::json;
+using test::ProgramResult;
+using test::runLavalight;
+using test::TemporaryFolder;
+
+// One triangle seen by no camera; uses an extension that nobody knows. The buffer holds (0 0 0) (1 0 0) (0 1
+// 0).
+constexpr const char* kTriangle = R"({
+  "asset": {"version": "2.0"},
+  "extensionsUsed": ["EXT_unheard_of", "KHR_materials_emissive_strength"],
+  "extensions": {"EXT_unheard_of": {}},
+  "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+  "meshes": [{"name": "tri", "primitives": [{"attributes": {"POSITION": 0}, "material": 0}]}],
+  "materials": [{"emissiveFactor": [1, 1, 1], "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 2}}}],
+  "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]}],
+  "bufferViews": [{"buffer": 0, "byteLength": 36}],
+  "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]
+})";
+
+class Info : public testing::Test {
+  protected:
+    [[nodiscard]] ProgramResult run(const std::vector<std::string>& arguments) const {
+        return runLavalight(arguments, folder_.path());
+    }
+
+    void expectRefusal(const std::string& path, const std::string& part) const {
+        const ProgramResult result = run({"info", path});
+        EXPECT_EQ(result.exitCode, 1) << path;
+        EXPECT_EQ(result.out, "") << path;
+        EXPECT_TRUE(result.err.starts_with("lavalight: error: ")) << result.err;
+        EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+        EXPECT_NE(result.err.find(part), std::string::npos) << result.err;
+    }
+
+    const TemporaryFolder folder_;
+};
+
+TEST_F(Info, CountsWhatTheFileHolds) {
+    writeFileAtomically(folder_ / "triangle.gltf", kTriangle);
+    const ProgramResult result = run({"info", "triangle.gltf", "--json"});
+    ASSERT_EQ(result.exitCode, 0) << result.err;
+    const json info = json::parse(result.out);
+    EXPECT_EQ(info.at("triangles"), 1);
+    EXPECT_EQ(info.at("emissiveTriangles"), 1);
+    EXPECT_EQ(info.at("vertices"), 3);
+    EXPECT_EQ(info.at("meshes"), 1);
+    EXPECT_EQ(info.at("cameras").size(), 1u); // the one that frames the scene
+    EXPECT_EQ(info.at("bounds").at("lower"), json({0.0, 0.0, 0.0}));
+    EXPECT_EQ(info.at("bounds").at("upper"), json({1.0, 1.0, 0.0}));
+    EXPECT_GE(info.at("geometryBytes"), 3 * 12 + 12);
+}
+
+TEST_F(Info, NamesTheExtensionsThatItIgnores) {
+    writeFileAtomically(folder_ / "triangle.gltf", kTriangle);
+    const json info = json::parse(run({"info", "triangle.gltf", "--json"}).out);
+    EXPECT_EQ(info.at("extensionsUsed"), json({"EXT_unheard_of", "KHR_materials_emissive_strength"}));
+    EXPECT_EQ(info.at("extensionsIgnored"), json::array({"EXT_unheard_of"}));
+    const auto& warnings = info.at("warnings");
+    EXPECT_TRUE(std::any_of(warnings.begin(), warnings.end(), [](const json& warning) {
+        return warning.get<std::string>().find("EXT_unheard_of") != std::string::npos;
+    })) << warnings;
+}
+
+TEST_F(Info, TheTextNamesEveryFigureOfTheJson) {
+    const ProgramResult result = run({"info", "cornell-box"});
+    EXPECT_EQ(result.exitCode, 0) << result.err;
+    for (const char* word : {"triangles", "emissive triangles", "meshes", "materials", "camera", "bounds",
+                             "geometry memory", "extensions used", "extensions ignored"})
+        EXPECT_NE(result.out.find(word), std::string::npos) << word;
+}
+
+TEST_F(Info, TheBuiltInCornellBoxIsUnderstoodWithoutWarnings) {
+    const ProgramResult result = run({"info", "cornell-box", "--json"});
+    ASSERT_EQ(result.exitCode, 0) << result.err;
+    EXPECT_EQ(result.err, "");
+    const json info = json::parse(result.out);
+    EXPECT_GE(info.at("triangles"), 30);
+    EXPECT_GE(info.at("emissiveTriangles"), 2);
+    EXPECT_EQ(info.at("warnings"), json::array());
+    EXPECT_EQ(info.at("extensionsIgnored"), json::array());
+}
+
+TEST_F(Info, PathsThatAreNoSceneAreOneLineAndExitOne) {
+    writeFileAtomically(folder_ / "empty.glb", "");
+    writeFileAtomically(folder_ / "text.glb", "this is no scene");
+    writeFileAtomically(folder_ / "text.gltf", "this is no scene");
+    expectRefusal("none.glb", "none.glb");
+    expectRefusal(".", "directory");
+    expectRefusal("empty.glb", "empty.glb");
+    expectRefusal("text.glb", "text.glb");
+    expectRefusal("text.gltf", "text.gltf");
+    expectRefusal("cornell-bx", "cornell-bx");
+}
+
+TEST_F(Info, WithoutASceneTheUsageIsWrong) {
+    const ProgramResult result = run({"info"});
+    EXPECT_EQ(result.exitCode, 2);
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+    EXPECT_NE(result.err.find("scene is required"), std::string::npos) << result.err;
+}
+
+TEST_F(Info, RealScenesAreValidJson) {
+    const char* assets = std::getenv("LAVALIGHT_ASSETS");
+    if (assets == nullptr)
+        GTEST_SKIP() << "LAVALIGHT_ASSETS is not set";
+    const std::filesystem::path box =
+        std::filesystem::path(assets) / "CornellBox-Bitterli/CornellBox-Bitterli.glb";
+    const ProgramResult result = run({"info", box.string(), "--json"});
+    ASSERT_EQ(result.exitCode, 0) << result.err;
+    EXPECT_GT(json::parse(result.out).at("triangles"), 0);
+    EXPECT_GT(json::parse(result.out).at("emissiveTriangles"), 0);
+}
+
+} // namespace
+} // namespace lavalight

@@ -1,0 +1,85 @@
+#!/usr/bin/env python3
+"""Renders the reference images of this folder with Mitsuba 3; README.md says how to run it.
+
+    python3 -m venv venv && venv/bin/pip install mitsuba OpenEXR numpy
+    venv/bin/python tests/references/make_references.py
+"""
+import argparse
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+import mitsuba as mi
+import numpy as np
+import OpenEXR
+
+FOLDER = Path(__file__).resolve().parent
+ROOT = FOLDER.parents[1]
+sys.path.insert(0, str(ROOT / "tools"))
+
+import gltf_to_mitsuba  # noqa: E402
+
+MAX_BOUNCES = 64  # scattering vertices, Lavalight's --max-bounces; Mitsuba's max_depth counts one more
+ROULETTE_DEPTH = 8
+
+
+def render_passes(scene, passes, spp):
+    """Mean and variance of the mean of each pixel and channel, from passes with the seeds 0, 1, 2, ..."""
+    mean = None
+    squares = None
+    for seed in range(passes):
+        image = np.array(mi.render(scene, spp=spp, seed=seed), dtype=np.float64)
+        if not np.isfinite(image).all():
+            raise SystemExit(f"pass {seed} holds values that are not finite")
+        if mean is None:
+            mean, squares = np.zeros_like(image), np.zeros_like(image)
+        delta = image - mean
+        mean += delta / (seed + 1)  # Welford 1962
+        squares += delta * (image - mean)
+        if sys.stderr.isatty():
+            print(f"\rpass {seed + 1}/{passes}", end="", file=sys.stderr)
+    return mean, squares / (passes - 1) / passes
+
+
+def write_exr(path, mean, variance, samples, notes):
+    channels = {}
+    for i, c in enumerate("RGB"):
+        channels[c] = np.ascontiguousarray(mean[..., i], dtype=np.float32)
+        channels[f"variance.{c}"] = np.ascontiguousarray(variance[..., i], dtype=np.float32)
+    channels["samples"] = np.full(mean.shape[:2], samples, dtype=np.uint32)
+    header = {"compression": OpenEXR.ZIP_COMPRESSION, "type": OpenEXR.scanlineimage, **notes}
+    OpenEXR.File(header, channels).write(str(path))
+
+
+def make(source, target, size, passes, spp):
+    with tempfile.TemporaryDirectory() as folder:
+        description = gltf_to_mitsuba.load(mi, source, size, folder)
+        description["integrator"] = {"type": "path", "max_depth": MAX_BOUNCES + 1, "rr_depth": ROULETTE_DEPTH}
+        scene = mi.load_dict(description)
+    start = time.process_time()
+    mean, variance = render_passes(scene, passes, spp)
+    notes = {"renderer": f"Mitsuba {mi.__version__} {mi.variant()}", "scene": Path(source).name,
+             "settings": f"path, {MAX_BOUNCES} bounces, box filter, independent sampler, "
+                         f"seeds 0 to {passes - 1} with {spp} samples each"}
+    write_exr(target, mean, variance, passes * spp, notes)
+    error = np.sqrt(variance.mean()) / mean.mean()
+    print(f"{target}: {size[0]}x{size[1]}, {passes * spp} samples a pixel, mean {mean.mean(axis=(0, 1))}, "
+          f"standard error of a pixel {error:.2e} of the mean, {time.process_time() - start:.0f} s CPU")
+
+
+def main():
+    parser = argparse.ArgumentParser(description="Renders a reference image with Mitsuba 3.")
+    parser.add_argument("--scene", default=ROOT / "assets/cornell-box.gltf", help="Lambert-only glTF file")
+    parser.add_argument("--output", default=FOLDER / "cornell-box.exr")
+    parser.add_argument("--size", type=int, nargs=2, default=(128, 128), metavar=("WIDTH", "HEIGHT"))
+    parser.add_argument("--passes", type=int, default=256)
+    parser.add_argument("--spp", type=int, default=128, help="samples a pixel and pass")
+    parser.add_argument("--variant", default="llvm_ad_rgb", help="scalar_rgb needs no LLVM but far more time")
+    options = parser.parse_args()
+    mi.set_variant(options.variant)
+    make(options.scene, options.output, tuple(options.size), options.passes, options.spp)
+
+
+if __name__ == "__main__":
+    main()

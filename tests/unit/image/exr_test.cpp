@@ -1,0 +1,315 @@
+// What is written comes back bit for bit; what others wrote is read or refused with one line.
+#include "image/exr.h"
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <random>
+#include <string>
+
+#include <ImfArray.h>
+#include <ImfChannelList.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfInputFile.h>
+#include <ImfOutputFile.h>
+#include <gtest/gtest.h>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "support/temporary_folder.h"
+
+namespace lavalight {
+namespace {
+
+namespace fs = std::filesystem;
+using test::TemporaryFolder;
+
+// Every exponent of float occurs, and zero, the smallest subnormal and the largest value.
+Rendering sampleRendering(uint32_t width, uint32_t height) {
+    std::mt19937 generator(7);
+    Rendering rendering{Image(width, height), Image(width, height), {}};
+    for (size_t i = 0; i < rendering.radiance.pixels.size(); ++i) {
+        for (int c = 0; c < 3; ++c) {
+            rendering.radiance.pixels[i][c] =
+                std::bit_cast<float>(static_cast<uint32_t>(generator() % 0x7f800000u));
+            rendering.variance.pixels[i][c] = std::ldexp(1.0f, static_cast<int>(generator() % 60) - 30);
+        }
+        rendering.sampleCounts.push_back(static_cast<uint32_t>(generator()));
+    }
+    rendering.radiance.pixels.front() = {0.0f, std::numeric_limits<float>::denorm_min(),
+                                         std::numeric_limits<float>::max()};
+    return rendering;
+}
+
+// The message with which readExr refuses a file; empty if it does not.
+std::string readError(const fs::path& path) {
+    try {
+        (void)readExr(path);
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return {};
+}
+
+void expectOneLineNaming(const std::string& message, const fs::path& path) {
+    EXPECT_TRUE(message.starts_with("cannot read " + path.string() + ": ")) << message;
+    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+}
+
+struct ForeignFile {
+    std::vector<std::string> channels;
+    Imf::PixelType type = Imf::HALF;
+    Imf::Compression compression = Imf::PIZ_COMPRESSION;
+    Imath::V2i origin{0, 0};
+    Imf::LineOrder lineOrder = Imf::INCREASING_Y;
+};
+
+// A file of 4 x 3 pixels as another program may write it; channel k of pixel i holds k + i / 16.
+void writeForeign(const fs::path& path, const ForeignFile& foreign) {
+    constexpr int kWidth = 4;
+    constexpr int kHeight = 3;
+    const Imath::Box2i window(foreign.origin, foreign.origin + Imath::V2i(kWidth - 1, kHeight - 1));
+    Imf::Header header(Imath::Box2i({0, 0}, {99, 99}), window);
+    header.compression() = foreign.compression;
+    header.lineOrder() = foreign.lineOrder;
+    std::vector<std::array<float, kWidth * kHeight>> values(foreign.channels.size());
+    std::vector<std::array<half, kWidth * kHeight>> halves(foreign.channels.size());
+    Imf::FrameBuffer buffer;
+    for (size_t k = 0; k < foreign.channels.size(); ++k) {
+        for (size_t i = 0; i < values[k].size(); ++i)
+            halves[k][i] = values[k][i] = static_cast<float>(k) + static_cast<float>(i) / 16.0f;
+        const bool isHalf = foreign.type == Imf::HALF;
+        const void* first = isHalf ? static_cast<const void*>(halves[k].data()) : values[k].data();
+        const size_t size = isHalf ? sizeof(half) : sizeof(float);
+        header.channels().insert(foreign.channels[k], Imf::Channel(foreign.type));
+        buffer.insert(foreign.channels[k],
+                      Imf::Slice::Make(foreign.type, first, window, size, size * kWidth));
+    }
+    Imf::OutputFile file(path.c_str(), header);
+    file.setFrameBuffer(buffer);
+    file.writePixels(kHeight);
+}
+
+TEST(Exr, ARenderingComesBackBitForBit) {
+    const TemporaryFolder folder;
+    const Rendering rendering = sampleRendering(67, 300); // more rows than one band of the reader
+    writeExr(folder / "image.exr", rendering, {});
+    const ExrFile file = readExr(folder / "image.exr");
+    EXPECT_EQ(file.radiance.width, 67u);
+    EXPECT_EQ(file.radiance.height, 300u);
+    EXPECT_EQ(file.radiance.pixels, rendering.radiance.pixels);
+    ASSERT_TRUE(file.variance.has_value());
+    EXPECT_EQ(file.variance->width, 67u);
+    EXPECT_EQ(file.variance->pixels, rendering.variance.pixels);
+    ASSERT_TRUE(file.sampleCounts.has_value());
+    EXPECT_EQ(*file.sampleCounts, rendering.sampleCounts);
+}
+
+TEST(Exr, MetadataComeBackInAlphabeticalOrder) {
+    const TemporaryFolder folder;
+    const Metadata metadata = {
+        {"seed", "7"},
+        {"device", "llvmpipe (LLVM 15.0.6, 256 bits), \"quoted\"\nand a second line ❤"},
+        {"ledger", ""},
+        {"a-key-that-is-longer-than-the-31-bytes-of-version-1-files", std::string(5000, 'x')}};
+    writeExr(folder / "image.exr", sampleRendering(2, 2), metadata);
+    EXPECT_EQ(readExr(folder / "image.exr").metadata,
+              (Metadata{metadata[3], metadata[1], metadata[2], metadata[0]}));
+}
+
+TEST(Exr, EqualRenderingsGiveEqualBytes) {
+    const TemporaryFolder folder;
+    writeExr(folder / "a.exr", sampleRendering(64, 64), {{"seed", "7"}});
+    writeExr(folder / "b.exr", sampleRendering(64, 64), {{"seed", "7"}});
+    EXPECT_EQ(readFile(folder / "a.exr"), readFile(folder / "b.exr"));
+}
+
+TEST(Exr, OtherProgramsFindTheChannelsAndAttributesThatTheHeaderPromises) {
+    const TemporaryFolder folder;
+    writeExr(folder / "image.exr", sampleRendering(3, 2), {{"seed", "7"}});
+    const Imf::InputFile file((folder / "image.exr").c_str());
+    const Imf::Header& header = file.header();
+    EXPECT_EQ(header.compression(), Imf::ZIP_COMPRESSION);
+    for (const char* name : {"R", "G", "B", "variance.R", "variance.G", "variance.B"}) {
+        ASSERT_NE(header.channels().findChannel(name), nullptr) << name;
+        EXPECT_EQ(header.channels().findChannel(name)->type, Imf::FLOAT) << name;
+    }
+    ASSERT_NE(header.channels().findChannel("samples"), nullptr);
+    EXPECT_EQ(header.channels().findChannel("samples")->type, Imf::UINT);
+    EXPECT_NE(header.find("lavalight:seed"), header.end());
+}
+
+TEST(Exr, AnUnwritablePathIsAnErrorAndLeavesNothing) {
+    const TemporaryFolder folder;
+    const Rendering rendering = sampleRendering(2, 2);
+    EXPECT_THROW(writeExr(folder / "none" / "image.exr", rendering, {}), Error);
+    EXPECT_THROW(writeExr(folder.path(), rendering, {}), Error);
+    EXPECT_THROW(writeExr("/proc/image.exr", rendering, {}), Error);
+    EXPECT_EQ(folder.count(), 0);
+}
+
+TEST(Exr, ForeignFilesAreReadWhateverTheirTypeCompressionAndOrigin) {
+    const TemporaryFolder folder;
+    for (const Imf::PixelType type : {Imf::HALF, Imf::FLOAT})
+        for (const Imf::Compression compression :
+             {Imf::NO_COMPRESSION, Imf::RLE_COMPRESSION, Imf::ZIPS_COMPRESSION, Imf::ZIP_COMPRESSION,
+              Imf::PIZ_COMPRESSION, Imf::PXR24_COMPRESSION})
+            for (const Imath::V2i& origin : {Imath::V2i(0, 0), Imath::V2i(-5, 17)}) {
+                SCOPED_TRACE(testing::Message() << "type " << type << ", compression " << compression);
+                writeForeign(folder / "image.exr",
+                             {{"A", "B", "G", "R"}, type, compression, origin, Imf::DECREASING_Y});
+                const ExrFile file = readExr(folder / "image.exr");
+                ASSERT_EQ(file.radiance.width, 4u);
+                ASSERT_EQ(file.radiance.height, 3u);
+                EXPECT_EQ(file.radiance.pixels.front(), glm::vec3(3.0f, 2.0f, 1.0f));
+                EXPECT_EQ(file.radiance.at(1, 2), glm::vec3(3.0f, 2.0f, 1.0f) + 9.0f / 16.0f);
+                EXPECT_FALSE(file.variance.has_value());
+                EXPECT_FALSE(file.sampleCounts.has_value());
+            }
+}
+
+TEST(Exr, LuminanceAloneIsGrey) {
+    const TemporaryFolder folder;
+    writeForeign(folder / "image.exr", {{"A", "Y"}});
+    EXPECT_EQ(readExr(folder / "image.exr").radiance.at(2, 1), glm::vec3(1.0f + 6.0f / 16.0f));
+}
+
+TEST(Exr, AFileWithoutColourIsRefusedByTheNamesItHas) {
+    const TemporaryFolder folder;
+    writeForeign(folder / "depth.exr", {{"R", "G", "Z"}});
+    expectOneLineNaming(readError(folder / "depth.exr"), folder / "depth.exr");
+    EXPECT_NE(readError(folder / "depth.exr").find("it has G, R, Z"), std::string::npos);
+    writeForeign(folder / "chroma.exr", {{"Y", "RY", "BY"}});
+    EXPECT_NE(readError(folder / "chroma.exr").find("it has BY, RY, Y"), std::string::npos);
+}
+
+TEST(Exr, PathsThatAreNoImagesAreRefused) {
+    const TemporaryFolder folder;
+    writeFileAtomically(folder / "empty.exr", "");
+    writeFileAtomically(folder / "text.exr", "this is no image");
+    for (const fs::path& path :
+         {folder / "none.exr", folder.path(), folder / "empty.exr", folder / "text.exr"})
+        expectOneLineNaming(readError(path), path);
+}
+
+TEST(Exr, EveryTruncationIsRefused) {
+    const TemporaryFolder folder;
+    writeExr(folder / "whole.exr", sampleRendering(16, 40), {{"seed", "7"}});
+    const std::string bytes = readFile(folder / "whole.exr");
+    for (size_t size = 0; size < bytes.size(); size += size < 1200 ? 7 : 501) {
+        writeFileAtomically(folder / "cut.exr", std::string_view(bytes).substr(0, size));
+        expectOneLineNaming(readError(folder / "cut.exr"), folder / "cut.exr");
+    }
+}
+
+TEST(Exr, DamagedBytesNeverCrashTheReader) {
+    const TemporaryFolder folder;
+    writeExr(folder / "whole.exr", sampleRendering(8, 20), {{"seed", "7"}});
+    const std::string bytes = readFile(folder / "whole.exr");
+    std::mt19937 generator(11);
+    int refused = 0;
+    for (int i = 0; i < 400; ++i) {
+        std::string damaged = bytes;
+        for (int k = 0; k < 3; ++k)
+            damaged[generator() % damaged.size()] = static_cast<char>(generator());
+        writeFileAtomically(folder / "damaged.exr", damaged);
+        const std::string message = readError(folder / "damaged.exr");
+        if (!message.empty()) {
+            expectOneLineNaming(message, folder / "damaged.exr");
+            ++refused;
+        }
+    }
+    EXPECT_GT(refused, 100); // damage to pixels may go unnoticed, damage to headers and compressed data not
+}
+
+// The data window is the value of an attribute: 4 little-endian integers xMin yMin xMax yMax after its name
+// and type.
+void setDataWindow(std::string& bytes, const std::array<int32_t, 4>& window) {
+    const std::string name("dataWindow\0box2i\0\x10\0\0\0", 21);
+    const size_t at = bytes.find(name);
+    ASSERT_NE(at, std::string::npos);
+    for (size_t i = 0; i < 4; ++i)
+        for (size_t k = 0; k < 4; ++k)
+            bytes[at + name.size() + 4 * i + k] =
+                static_cast<char>(static_cast<uint32_t>(window[i]) >> (8 * k));
+}
+
+TEST(Exr, HeadersThatClaimAbsurdSizesAreRefusedWithoutAllocatingThem) {
+    const TemporaryFolder folder;
+    writeExr(folder / "whole.exr", sampleRendering(8, 20), {});
+    const std::string bytes = readFile(folder / "whole.exr");
+    constexpr int32_t kMax = std::numeric_limits<int32_t>::max();
+    constexpr int32_t kMin = std::numeric_limits<int32_t>::min();
+    const std::array<std::array<int32_t, 4>, 7> windows = {{{0, 0, 16384, 0},
+                                                            {0, 0, 0, 16384},
+                                                            {0, 0, kMax, kMax},
+                                                            {kMin, kMin, kMax, kMax},
+                                                            {5, 5, 4, 4},
+                                                            {0, 0, 1 << 29, 19},
+                                                            {0, 0, 16383, 16383}}};
+    for (const auto& window : windows) {
+        SCOPED_TRACE(testing::Message()
+                     << window[0] << " " << window[1] << " " << window[2] << " " << window[3]);
+        std::string claimed = bytes;
+        setDataWindow(claimed, window);
+        writeFileAtomically(folder / "claimed.exr", claimed);
+        expectOneLineNaming(readError(folder / "claimed.exr"), folder / "claimed.exr");
+    }
+}
+
+TEST(Exr, AnAttributeThatClaimsGigabytesIsRefusedByItsName) {
+    const TemporaryFolder folder;
+    writeExr(folder / "whole.exr", sampleRendering(8, 20), {{"seed", "7"}});
+    std::string bytes = readFile(folder / "whole.exr");
+    const std::string name("lavalight:seed\0string\0", 22);
+    const size_t size = bytes.find(name) + name.size(); // a little-endian 32-bit integer
+    bytes[size + 3] = '\x7f';
+    writeFileAtomically(folder / "claimed.exr", bytes);
+    expectOneLineNaming(readError(folder / "claimed.exr"), folder / "claimed.exr");
+    EXPECT_NE(readError(folder / "claimed.exr").find("lavalight:seed"), std::string::npos);
+}
+
+// The folder of real assets; tests that need it are skipped without.
+fs::path assetFolder() {
+    const char* folder = std::getenv("LAVALIGHT_ASSETS");
+    return folder == nullptr ? fs::path() : fs::path(folder);
+}
+
+TEST(ExrAssets, RealImagesOfEveryCompressionAreRead) {
+    if (assetFolder().empty())
+        GTEST_SKIP() << "LAVALIGHT_ASSETS is not set";
+    const Image reference = readExr(assetFolder() / "_env/exr-variants/venice_256_none_float.exr").radiance;
+    int count = 0;
+    for (const auto& entry : fs::directory_iterator(assetFolder() / "_env/exr-variants")) {
+        const Image image = readExr(entry.path()).radiance;
+        ASSERT_EQ(image.width, reference.width) << entry.path();
+        ASSERT_EQ(image.height, reference.height) << entry.path();
+        glm::dvec3 sum(0.0);
+        glm::dvec3 expected(0.0);
+        for (size_t i = 0; i < image.pixels.size(); ++i) {
+            sum += glm::dvec3(image.pixels[i]);
+            expected += glm::dvec3(reference.pixels[i]);
+        }
+        EXPECT_NEAR(sum.g / expected.g, 1.0, 0.01) << entry.path(); // B44 loses most
+        ++count;
+    }
+    EXPECT_GE(count, 8);
+    EXPECT_GT(readExr(assetFolder() / "CornellBox-Bitterli/reference.exr").radiance.width, 0u);
+}
+
+TEST(ExrAssets, BrokenFilesAreRefusedOrReadButNeverCrash) {
+    if (assetFolder().empty())
+        GTEST_SKIP() << "LAVALIGHT_ASSETS is not set";
+    for (const auto& entry : fs::directory_iterator(assetFolder() / "invalid/generated/env")) {
+        const std::string message = readError(entry.path());
+        const bool mayLoad = entry.path().filename() == "exr_corrupt.exr";
+        if (!mayLoad || !message.empty())
+            expectOneLineNaming(message, entry.path());
+    }
+}
+
+} // namespace
+} // namespace lavalight
