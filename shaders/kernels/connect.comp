@@ -11,6 +11,6 @@ void main() {
         return;
     const uint slot = queues[shadowQueueStart(frame.waveSize) + gl_GlobalInvocationID.x];
     const ShadowRay ray = shadowRays[slot];
-    if (!intersectAny(ray.origin, ray.direction, 1.0))
+    if (!intersectAny(ray.origin, ray.direction, 1.0, RayFilter(false, ray.fromTriangle, ray.toTriangle)))
         paths[slot].radiance += ray.contribution;
 }

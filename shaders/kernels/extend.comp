@@ -13,9 +13,9 @@ void main() {
     const uint slot = queues[rayQueueStart(range.bounce, frame.waveSize) + gl_GlobalInvocationID.x];
     const Ray ray = rays[slot];
     // glTF's back-face culling is for the camera alone: light transport needs closed surfaces.
-    const bool cullBackFaces = range.bounce == 0u;
+    const RayFilter ignored = RayFilter(range.bounce == 0u, ray.fromTriangle, kNoTriangle);
     Hit hit;
-    if (!intersectClosest(ray.origin, ray.direction, kInfinity, cullBackFaces, hit))
+    if (!intersectClosest(ray.origin, ray.direction, kInfinity, ignored, hit))
         hit.t = kInfinity;
     hits[slot] = hit;
 }

@@ -48,6 +48,8 @@ bool nextEvent(Interaction surface, Surface bsdf, Basis basis, vec3 wo, vec3 thr
     shadow.contribution = throughput * f * light.emission * (weight / light.pdf);
     shadow.origin = offsetOrigin(surface.p, surface.pError, surface.ng, light.wi);
     shadow.direction = offsetOrigin(light.p, light.pError, light.ng, -light.wi) - shadow.origin;
+    shadow.fromTriangle = surface.triangle;
+    shadow.toTriangle = light.triangle;
     return light.pdf > 0.0 && shadow.contribution != vec3(0.0);
 }
 
@@ -60,7 +62,7 @@ bool nextDirection(Interaction surface, Surface bsdf, Basis basis, vec3 wo, uint
     path.bsdfPdf = next.pdf;
     if (path.throughput == vec3(0.0) || dot(wi, surface.ng) <= 0.0)
         return false;
-    rays[slot] = Ray(offsetOrigin(surface.p, surface.pError, surface.ng, wi), 0.0, wi, 0.0);
+    rays[slot] = Ray(offsetOrigin(surface.p, surface.pError, surface.ng, wi), surface.triangle, wi, 0.0);
 
     const float survival = survivalProbability(kRoulette, vertex, frame.rouletteStart, path.throughput);
     if (survival >= 1.0)

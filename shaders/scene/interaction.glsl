@@ -15,6 +15,7 @@ struct Interaction {
     vec3 n;        // shading normal, unit length, flipped with ng
     bool isFront;  // wo is on the triangle's front
     float area;
+    uint triangle; // id
     uint emitter;  // or kNoEmitter
     uint material;
 };
@@ -46,6 +47,7 @@ Interaction makeInteraction(Hit hit, vec3 wo) {
         i.ng = -i.ng;
         i.n = -i.n;
     }
+    i.triangle = triangle.triangle;
     i.emitter = triangle.emitter;
     i.material = triangle.material & kMaterialMask;
     return i;

@@ -36,6 +36,7 @@ float areaToSolidAngle(float pdfArea, float distance2, float cosLight) {
 struct LightSample {
     vec3 p;        // on the light
     vec3 pError;
+    uint triangle; // id
     vec3 ng;       // the light's geometric normal, front side
     vec3 wi;       // unit, towards the light
     vec3 emission; // 0: the light does not shine this way
@@ -54,6 +55,7 @@ LightSample sampleLight(vec3 from, uvec4 bits, uint emitterCount) {
     LightSample light;
     light.p = weights.x * triangle.v0 + weights.y * triangle.v1 + weights.z * triangle.v2;
     light.pError = hitPointError(weights, triangle.v0, triangle.v1, triangle.v2);
+    light.triangle = triangle.triangle;
     light.ng = normal / twiceArea;
     const vec3 d = light.p - from;
     const float distance2 = dot(d, d);

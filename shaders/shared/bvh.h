@@ -24,6 +24,7 @@ SHARED_CONST uint kLeafTriangleTexels = 3u;
 SHARED_CONST uint kMaxTexels = 134217728u; // Vulkan devices' usual maxTexelBufferElements, lavapipe's too
 
 SHARED_CONST uint kLeafBit = 0x80000000u;
+SHARED_CONST uint kEmptyLeaf = kLeafBit;
 SHARED_CONST uint kLeafCountShift = 28u;
 SHARED_CONST uint kLeafCountMask = 7u;
 SHARED_CONST uint kLeafFirstMask = 0x0fffffffu;

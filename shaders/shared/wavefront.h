@@ -11,10 +11,11 @@ SHARED_CONST uint kWorkgroupSize = 64u;
 // The ray a slot's path goes on with. The direction has unit length.
 struct Ray {
     vec3 origin;
-    float unused0;
+    uint fromTriangle; // id of the triangle that it starts on, or kNoTriangle
     vec3 direction;
-    float unused1;
+    float unused;
 };
+SHARED_CONST uint kNoTriangle = 0xffffffffu;
 
 // Where that ray meets the scene first.
 struct Hit {
@@ -34,11 +35,11 @@ struct Path {
 // way to the light).
 struct ShadowRay {
     vec3 origin;
-    float unused0;
+    uint fromTriangle; // ids of the triangles that it starts and ends on, or kNoTriangle
     vec3 direction;
-    float unused1;
+    uint toTriangle;
     vec3 contribution;
-    float unused2;
+    float unused;
 };
 
 // Queue lengths of one bounce. Counters of all bounces are cleared once per wave.

@@ -25,25 +25,9 @@ static_assert(3 * (kMaxBinaryDepth / 2) <= kTraversalStackSize);
 // What Embree's callbacks know. Embree sees the scene scaled by a power of two to coordinates below 1, which
 // is exact and keeps its areas and costs finite and normal at any scale of the scene.
 struct BuildContext {
-    std::span<const Triangle> triangles;
+    std::vector<Triangle> scaled;
     double scale = 1.0;
     float triangleCost = 0.0f;
-
-    // Room for numbers that leave the normal range by scaling, which Embree may take for 0.
-    static constexpr float kPad = 4.0f * std::numeric_limits<float>::min();
-
-    [[nodiscard]] glm::vec3 scaled(const glm::vec3& v) const { return glm::vec3(scale * glm::dvec3(v)); }
-    [[nodiscard]] Triangle scaledTriangle(uint32_t id) const {
-        const Triangle& t = triangles[id];
-        return {scaled(t.v0), scaled(t.v1), scaled(t.v2)};
-    }
-    [[nodiscard]] BuildBox unscaled(const BuildBox& box) const; // rounded outward
-    [[nodiscard]] RTCBuildPrimitive primitive(uint32_t id) const {
-        const BuildBox box = triangleBox(scaledTriangle(id));
-        const glm::vec3 lower = box.lower - kPad;
-        const glm::vec3 upper = box.upper + kPad;
-        return {lower.x, lower.y, lower.z, 0, upper.x, upper.y, upper.z, id};
-    }
 };
 
 // The nearest float that is not above `value`.
@@ -52,7 +36,8 @@ float roundDown(double value) {
     return nearest > value ? std::nextafter(nearest, -std::numeric_limits<float>::infinity()) : nearest;
 }
 
-BuildBox BuildContext::unscaled(const BuildBox& box) const {
+// Back to the scene's scale, rounded outward.
+BuildBox unscaled(const BuildBox& box, double scale) {
     BuildBox result;
     for (int i = 0; i < 3; ++i) {
         result.lower[i] = roundDown(box.lower[i] / scale);
@@ -61,8 +46,26 @@ BuildBox BuildContext::unscaled(const BuildBox& box) const {
     return result;
 }
 
+RTCBuildPrimitive toPrimitive(const Triangle& scaled, uint32_t id) {
+    // Room for numbers that leave the normal range by scaling, which Embree may take for 0.
+    constexpr float kPad = 4.0f * std::numeric_limits<float>::min();
+    const BuildBox box = triangleBox(scaled);
+    const glm::vec3 lower = box.lower - kPad;
+    const glm::vec3 upper = box.upper + kPad;
+    return {lower.x, lower.y, lower.z, 0, upper.x, upper.y, upper.z, id};
+}
+
 BuildBox primitiveBox(const RTCBuildPrimitive& p) {
     return {{p.lower_x, p.lower_y, p.lower_z}, {p.upper_x, p.upper_y, p.upper_z}};
+}
+
+void storeBox(const BuildBox& box, RTCBounds& out) {
+    out.lower_x = box.lower.x;
+    out.lower_y = box.lower.y;
+    out.lower_z = box.lower.z;
+    out.upper_x = box.upper.x;
+    out.upper_y = box.upper.y;
+    out.upper_z = box.upper.z;
 }
 
 void* createNode(RTCThreadLocalAllocator allocator, unsigned, void*) {
@@ -81,21 +84,18 @@ void* createLeaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* pri
     assert(count == 1);
     const auto& context = *static_cast<const BuildContext*>(user);
     auto* leaf = new (rtcThreadLocalAlloc(allocator, sizeof(BuildNode), 16)) BuildNode;
-    makeReference(*leaf, primitive->primID, context.unscaled(primitiveBox(*primitive)), context.triangleCost);
+    makeReference(*leaf, primitive->primID, unscaled(primitiveBox(*primitive), context.scale),
+                  context.triangleCost);
     return leaf;
 }
 
 void splitPrimitive(const RTCBuildPrimitive* primitive, unsigned axis, float position, RTCBounds* left,
                     RTCBounds* right, void* user) {
     const auto& context = *static_cast<const BuildContext*>(user);
-    const SplitBoxes boxes = splitTriangle(context.scaledTriangle(primitive->primID),
-                                           primitiveBox(*primitive), static_cast<int>(axis), position);
-    for (int i = 0; i < 3; ++i) {
-        (&left->lower_x)[i] = boxes.left.lower[i];
-        (&left->upper_x)[i] = boxes.left.upper[i];
-        (&right->lower_x)[i] = boxes.right.lower[i];
-        (&right->upper_x)[i] = boxes.right.upper[i];
-    }
+    const SplitBoxes boxes = splitTriangle(context.scaled[primitive->primID], primitiveBox(*primitive),
+                                           static_cast<int>(axis), position);
+    storeBox(boxes.left, *left);
+    storeBox(boxes.right, *right);
 }
 
 // Throws Error for a coordinate out of range.
@@ -115,20 +115,25 @@ Bounds boundsOf(std::span<const Triangle> triangles) {
     return triangles.empty() ? Bounds{} : Bounds{box.lower, box.upper};
 }
 
-double scaleFor(const Bounds& bounds) {
+BuildContext makeContext(std::span<const Triangle> triangles, const Bounds& bounds, float triangleCost) {
     const glm::vec3 reach = glm::max(glm::abs(bounds.lower), glm::abs(bounds.upper));
     const float largest = glm::max(glm::max(reach.x, reach.y), reach.z);
-    return largest > 0.0f ? std::ldexp(1.0, -1 - std::ilogb(largest)) : 1.0;
+    BuildContext context{{}, largest > 0.0f ? std::ldexp(1.0, -1 - std::ilogb(largest)) : 1.0, triangleCost};
+    const auto scaled = [&](const glm::vec3& v) { return glm::vec3(context.scale * glm::dvec3(v)); };
+    context.scaled.reserve(triangles.size());
+    for (const Triangle& t : triangles)
+        context.scaled.push_back({scaled(t.v0), scaled(t.v1), scaled(t.v2)});
+    return context;
 }
 
 // The tree lives as long as `bvh`. Null where Embree cannot keep to kMaxBinaryDepth.
 const BuildNode* buildEmbreeTree(BuildContext& context, const BvhConfig& config, RTCBVH bvh) {
-    const size_t count = context.triangles.size();
+    const size_t count = context.scaled.size();
     const size_t room = size_t{kMaxTexels / kLeafTriangleTexels};
     const auto wanted = static_cast<size_t>(static_cast<double>(count) * (1.0 + config.splitBudget));
     std::vector<RTCBuildPrimitive> primitives(std::min(wanted, room));
     for (size_t id = 0; id < count; ++id)
-        primitives[id] = context.primitive(static_cast<uint32_t>(id));
+        primitives[id] = toPrimitive(context.scaled[id], static_cast<uint32_t>(id));
 
     RTCBuildArguments arguments = rtcDefaultBuildArguments();
     arguments.buildQuality = RTC_BUILD_QUALITY_HIGH;
@@ -153,7 +158,7 @@ Bvh buildNonEmpty(std::span<const Triangle> triangles, const Bounds& bounds, con
     const EmbreeBvh arena(device ? rtcNewBVH(device.get()) : nullptr);
     if (!arena)
         throw Error("cannot build the BVH: Embree does not start (out of memory?)");
-    BuildContext context{triangles, scaleFor(bounds), config.triangleCost};
+    BuildContext context = makeContext(triangles, bounds, config.triangleCost);
     if (const BuildNode* root = buildEmbreeTree(context, config, arena.get()))
         return flattenTree(root);
     if (rtcGetDeviceError(device.get()) == RTC_ERROR_OUT_OF_MEMORY)

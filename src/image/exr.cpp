@@ -221,8 +221,6 @@ ExrFile readChannels(Imf::InputFile& file) {
     if (grey && !isLuminance(channels))
         throw Error(fmt::format("it lacks channels R, G, B (or Y alone) at full resolution; it has {}",
                                 channelNames(channels)));
-    if (!file.isComplete())
-        throw Error("it is incomplete");
     ExrFile result;
     PixelReader reader(file);
     if (grey)

@@ -65,6 +65,7 @@ struct ForeignFile {
     Imf::Compression compression = Imf::PIZ_COMPRESSION;
     Imath::V2i origin{0, 0};
     Imf::LineOrder lineOrder = Imf::INCREASING_Y;
+    int rowsWritten = 3;
 };
 
 // A file of 4 x 3 pixels as another program may write it; channel k of pixel i holds k + i / 16.
@@ -90,7 +91,7 @@ void writeForeign(const fs::path& path, const ForeignFile& foreign) {
     }
     Imf::OutputFile file(path.c_str(), header);
     file.setFrameBuffer(buffer);
-    file.writePixels(kHeight);
+    file.writePixels(foreign.rowsWritten);
 }
 
 TEST(Exr, ARenderingComesBackBitForBit) {
@@ -203,6 +204,14 @@ TEST(Exr, EveryTruncationIsRefused) {
         writeFileAtomically(folder / "cut.exr", std::string_view(bytes).substr(0, size));
         expectOneLineNaming(readError(folder / "cut.exr"), folder / "cut.exr");
     }
+}
+
+TEST(Exr, AFileThatItsWriterLeftUnfinishedIsRefused) {
+    const TemporaryFolder folder;
+    ForeignFile foreign{{"R", "G", "B"}, Imf::FLOAT, Imf::NO_COMPRESSION};
+    foreign.rowsWritten = 2;
+    writeForeign(folder / "image.exr", foreign);
+    expectOneLineNaming(readError(folder / "image.exr"), folder / "image.exr");
 }
 
 TEST(Exr, DamagedBytesNeverCrashTheReader) {

@@ -1,0 +1,28 @@
+#include "support/test_device.h"
+
+#include <cstdlib>
+
+namespace lavalight::test {
+
+gpu::Device& testDevice() {
+    static gpu::Device device([] {
+        gpu::DeviceConfig config;
+        const char* wanted = std::getenv("LAVALIGHT_TEST_DEVICE");
+        config.wanted = wanted != nullptr ? wanted : "";
+        config.validate = true;
+        return config;
+    }());
+    return device;
+}
+
+void DeviceTest::SetUp() {
+    messagesBefore_ = device().validationMessages().size();
+}
+
+void DeviceTest::TearDown() {
+    const auto messages = device().validationMessages();
+    if (messages.size() > messagesBefore_)
+        ADD_FAILURE() << "the validation layer says: " << messages[messagesBefore_];
+}
+
+} // namespace lavalight::test

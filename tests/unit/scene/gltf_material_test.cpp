@@ -1,0 +1,181 @@
+// Tests of materials, of the extensions and of what stands in for missing light.
+#include <gtest/gtest.h>
+
+#include "unit/scene/gltf_builder.h"
+
+namespace lavalight::test {
+namespace {
+
+// A triangle with `material`.
+GltfBuilder triangleOf(Json material) {
+    GltfBuilder builder;
+    const int mesh = builder.addTriangle();
+    builder.json["meshes"][0]["primitives"][0]["material"] = 0;
+    builder.json["materials"] = {std::move(material)};
+    builder.addNode({{"mesh", mesh}});
+    return builder;
+}
+
+Material importMaterial(Json material) {
+    return triangleOf(std::move(material)).import().materials.at(0);
+}
+
+TEST(GltfMaterial, FactorsAreRead) {
+    const Material material = importMaterial(
+        {{"name", "paint"},
+         {"doubleSided", true},
+         {"pbrMetallicRoughness",
+          {{"baseColorFactor", {0.1, 0.2, 0.3, 1}}, {"metallicFactor", 0.4}, {"roughnessFactor", 0.5}}}});
+    EXPECT_EQ(material.name, "paint");
+    EXPECT_EQ(material.baseColor, glm::vec3(0.1f, 0.2f, 0.3f));
+    EXPECT_FLOAT_EQ(material.metallic, 0.4f);
+    EXPECT_FLOAT_EQ(material.roughness, 0.5f);
+    EXPECT_TRUE(material.doubleSided);
+}
+
+TEST(GltfMaterial, DefaultsAreThoseOfGltf) {
+    const Material material = importMaterial(Json::object());
+    EXPECT_EQ(material.baseColor, glm::vec3(1.0f));
+    EXPECT_EQ(material.metallic, 1.0f);
+    EXPECT_EQ(material.roughness, 1.0f);
+    EXPECT_EQ(material.emission, glm::vec3(0.0f));
+    EXPECT_EQ(material.ior, 1.5f);
+    EXPECT_EQ(material.specular, 1.0f);
+    EXPECT_FALSE(material.doubleSided);
+}
+
+TEST(GltfMaterial, PrimitiveWithoutMaterialGetsTheDefaultOne) {
+    GltfBuilder builder = triangleOf({{"pbrMetallicRoughness", {{"metallicFactor", 0}}}});
+    builder.json["meshes"][0]["primitives"][0].erase("material");
+    const Scene scene = builder.import();
+    EXPECT_EQ(scene.meshes.at(0).material, 1u);
+    EXPECT_EQ(scene.materials.at(1).metallic, 1.0f);
+}
+
+TEST(GltfMaterial, EmissiveStrengthMultipliesEvenWhereItIsAnInteger) {
+    const Material material = importMaterial(
+        {{"emissiveFactor", {1, 0.5, 0.25}},
+         {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", 10'000'000'000}}}}}});
+    EXPECT_EQ(material.emission, glm::vec3(1e10f, 0.5e10f, 0.25e10f));
+}
+
+TEST(GltfMaterial, SpecularAndIorAreRead) {
+    const Material material = importMaterial(
+        {{"extensions",
+          {{"KHR_materials_specular", {{"specularFactor", 0}, {"specularColorFactor", {0.5, 1, 2}}}},
+           {"KHR_materials_ior", {{"ior", 1.33}}}}}});
+    EXPECT_EQ(material.specular, 0.0f);
+    EXPECT_EQ(material.specularColor, glm::vec3(0.5f, 1.0f, 2.0f));
+    EXPECT_FLOAT_EQ(material.ior, 1.33f);
+}
+
+TEST(GltfMaterial, IorOfZeroIsKeptAsTheSpecialValueItIs) {
+    const GltfBuilder builder = triangleOf({{"extensions", {{"KHR_materials_ior", {{"ior", 0}}}}}});
+    const Scene scene = builder.import();
+    EXPECT_EQ(scene.materials.at(0).ior, 0.0f);
+    EXPECT_EQ(warningsWith(scene, "ior"), 0);
+}
+
+TEST(GltfMaterial, FactorsOutOfRangeAreClampedWithAWarningThatNamesTheMaterial) {
+    const Scene scene =
+        triangleOf(
+            {{"name", "odd"},
+             {"pbrMetallicRoughness",
+              {{"baseColorFactor", {2, -1, 0.5, 1}}, {"metallicFactor", 3}, {"roughnessFactor", -1}}},
+             {"extensions",
+              {{"KHR_materials_ior", {{"ior", 0.5}}}, {"KHR_materials_specular", {{"specularFactor", 7}}}}}})
+            .import();
+    const Material& material = scene.materials.at(0);
+    EXPECT_EQ(material.baseColor, glm::vec3(1.0f, 0.0f, 0.5f));
+    EXPECT_EQ(material.metallic, 1.0f);
+    EXPECT_EQ(material.roughness, 0.0f);
+    EXPECT_EQ(material.ior, 1.0f);
+    EXPECT_EQ(material.specular, 1.0f);
+    for (const char* factor :
+         {"baseColorFactor", "metallicFactor", "roughnessFactor", "ior", "specularFactor"}) {
+        EXPECT_EQ(warningsWith(scene, std::string(factor) + " was clamped"), 1) << factor;
+    }
+    EXPECT_EQ(warningsWith(scene, "material 0 \"odd\""), 5);
+}
+
+TEST(GltfMaterial, EmissiveFactorAboveOneIsTakenAsItIsWithAWarning) {
+    const Scene scene = triangleOf({{"emissiveFactor", {17, 12, 4}}}).import();
+    EXPECT_EQ(scene.materials.at(0).emission, glm::vec3(17, 12, 4));
+    EXPECT_EQ(warningsWith(scene, "emissiveFactor above 1"), 1);
+}
+
+TEST(GltfMaterial, HugeEmissionStaysFinite) {
+    const Material material = importMaterial(
+        {{"emissiveFactor", {1, 1, 1}},
+         {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", 1e300}}}}}});
+    EXPECT_TRUE(std::isfinite(material.emission.x));
+    EXPECT_GT(material.emission.x, 1e9f);
+}
+
+TEST(GltfMaterial, SceneWithoutLightGetsAWhiteEnvironmentAndAMessage) {
+    const Scene dark = triangleOf(Json::object()).import();
+    EXPECT_EQ(dark.environment, glm::vec3(1.0f));
+    EXPECT_EQ(warningsWith(dark, "no light"), 1);
+    const Scene lit = triangleOf({{"emissiveFactor", {0, 1, 0}}}).import();
+    EXPECT_EQ(lit.environment, glm::vec3(0.0f));
+    EXPECT_EQ(warningsWith(lit, "no light"), 0);
+}
+
+TEST(GltfMaterial, LightOfAMaterialThatNothingWearsIsNoLight) {
+    GltfBuilder builder = triangleOf({{"emissiveFactor", {1, 1, 1}}});
+    builder.json["materials"].push_back(Json::object());
+    builder.json["meshes"][0]["primitives"][0]["material"] = 1;
+    EXPECT_EQ(builder.import().environment, glm::vec3(1.0f));
+}
+
+TEST(GltfMaterial, TexturesAndAlphaAreNamedAsNotRead) {
+    GltfBuilder builder = triangleOf({{"name", "leaf"},
+                                      {"alphaMode", "MASK"},
+                                      {"emissiveFactor", {1, 1, 1}},
+                                      {"emissiveTexture", {{"index", 0}}}});
+    builder.json["textures"] = {Json::object(), Json::object()};
+    builder.json["images"] = {{{"uri", "file:///nowhere.png"}}};
+    const Scene scene = builder.import();
+    EXPECT_EQ(warningsWith(scene, "2 textures ignored"), 1);
+    EXPECT_EQ(
+        warningsWith(scene, "alpha is not read yet, these materials are shown opaque: material 0 \"leaf\""),
+        1);
+    EXPECT_EQ(scene.materials.at(0).emission, glm::vec3(0.0f)); // not all of the leaf glows
+}
+
+TEST(GltfExtensions, UnsupportedOnesWarnOnceEachByTheirExactName) {
+    GltfBuilder builder = triangleOf(
+        {{"extensions", {{"KHR_materials_sheen", Json::object()}, {"KHR_materials_ior", Json::object()}}}});
+    builder.json["extensionsUsed"] = {"KHR_materials_clearcoat", "KHR_materials_ior"};
+    builder.json["nodes"][0]["extensions"] = {{"KHR_materials_clearcoat", Json::object()}};
+    const Scene scene = builder.import();
+    EXPECT_EQ(warningsWith(scene, "KHR_materials_clearcoat"), 1);
+    EXPECT_EQ(warningsWith(scene, "KHR_materials_sheen"), 1); // in use, though not listed
+    EXPECT_EQ(warningsWith(scene, "KHR_materials_ior"), 0);
+    EXPECT_EQ(scene.ignoredExtensions,
+              (std::vector<std::string>{"KHR_materials_clearcoat", "KHR_materials_sheen"}));
+    EXPECT_EQ(scene.extensionsUsed,
+              (std::vector<std::string>{"KHR_materials_clearcoat", "KHR_materials_ior"}));
+}
+
+TEST(GltfExtensions, RequiredAndUnsupportedIsAnErrorWithTheExactName) {
+    GltfBuilder builder = triangleOf(Json::object());
+    builder.json["extensionsRequired"] = {"KHR_materials_ior"};
+    EXPECT_EQ(importError(builder), "");
+    builder.json["extensionsRequired"].push_back("KHR_draco_mesh_compression");
+    EXPECT_NE(importError(builder).find("KHR_draco_mesh_compression"), std::string::npos);
+}
+
+TEST(GltfExtensions, MotionIsNamedAsNotEvaluated) {
+    GltfBuilder builder = triangleOf(Json::object());
+    builder.json["skins"] = {{{"joints", {0}}}};
+    builder.json["nodes"][0]["skin"] = 0;
+    builder.json["animations"] = {Json::object()};
+    builder.json["meshes"][0]["primitives"][0]["targets"] = {{{"POSITION", 0}}};
+    const Scene scene = builder.import();
+    for (const char* feature : {"skins", "animations", "morph targets"})
+        EXPECT_EQ(warningsWith(scene, feature), 1) << feature;
+}
+
+} // namespace
+} // namespace lavalight::test
