@@ -16,45 +16,59 @@ void addTally(uint which, uint amount) {
         atomicAdd(tallies[2u * which + 1u], 1u);
 }
 
-// Adds `value` to the sum whose lowest word is in plane `plane`; what leaves the range saturates and is counted.
-void addExactly(float value, uint plane, uint words, int lowestExponent, uint pixel) {
-    const Shifted s = toFixed(value, lowestExponent, words);
-    uint carry = 0u;
-    for (uint i = 0u; i < words; ++i) {
-        const uint at = (plane + i) * frame.bandPixels + pixel;
-        film[at] = addWithCarry(film[at], wordOf(s, i), carry);
-    }
-    if (carry == 0u && !s.overflows)
-        return;
-    for (uint i = 0u; i < words; ++i)
-        film[(plane + i) * frame.bandPixels + pixel] = 0xffffffffu;
-    addTally(kTallySaturated, 1u);
+bool isFinite(vec3 v) {
+    return !any(isnan(v)) && !any(isinf(v));
 }
 
-void addSample(vec3 radiance, uint pixel) {
-    for (uint channel = 0u; channel < 3u; ++channel) {
+// One channel of one pixel: its words stay in registers while the wave's samples are added.
+void accumulateChannel(uint channel, uint pixel, uint firstSlot) {
+    const uint n = frame.bandPixels;
+    const uint at = channel * kChannelWords * n + pixel;
+    uvec3 sum = uvec3(film[at], film[at + n], film[at + 2u * n]);
+    uvec4 square = uvec4(film[at + 3u * n], film[at + 4u * n], film[at + 5u * n], film[at + 6u * n]);
+    uint saturated = 0u;
+    for (uint slot = firstSlot; slot < firstSlot + range.sampleCount; ++slot) {
+        const vec3 radiance = paths[slot].radiance;
+        if (!isFinite(radiance))
+            continue;
         const float value = max(radiance[channel], 0.0);
-        const uint plane = channel * kChannelWords;
-        addExactly(value, plane, kSumWords, kSumLowestExponent, pixel);
-        addExactly(value * value, plane + kSumWords, kSquareWords, kSquareLowestExponent, pixel);
+        saturated += addExactly(sum, value, kSumLowestExponent) ? 0u : 1u;
+        saturated += addExactly(square, value * value, kSquareLowestExponent) ? 0u : 1u;
     }
-    film[kCountPlane * frame.bandPixels + pixel] += 1u;
+    if (saturated > 0u)
+        addTally(kTallySaturated, saturated);
+    film[at] = sum.x;
+    film[at + n] = sum.y;
+    film[at + 2u * n] = sum.z;
+    film[at + 3u * n] = square.x;
+    film[at + 4u * n] = square.y;
+    film[at + 5u * n] = square.z;
+    film[at + 6u * n] = square.w;
+}
+
+// The sample count, and what the ledger wants to know.
+void accumulateCounts(uint pixel, uint firstSlot) {
+    uint dropped = 0u;
+    for (uint slot = firstSlot; slot < firstSlot + range.sampleCount; ++slot) {
+        dropped += isFinite(paths[slot].radiance) ? 0u : 1u;
+        if (paths[slot].isCut == 0u)
+            continue;
+        const float throughput = dot(paths[slot].throughput, vec3(1.0 / 3.0));
+        addTally(kTallyCutPaths, 1u);
+        addTally(kTallyCutThroughput, uint(min(throughput, 65535.0) * 65536.0 + 0.5));
+    }
+    if (dropped > 0u)
+        addTally(kTallyDropped, dropped);
+    film[kCountPlane * frame.bandPixels + pixel] += range.sampleCount - dropped;
 }
 
 void main() {
-    if (gl_GlobalInvocationID.x >= range.pixelCount)
+    const uint index = gl_GlobalInvocationID.x;
+    if (index >= range.pixelCount)
         return;
-    const uint pixel = range.firstPixel - range.bandFirstPixel + gl_GlobalInvocationID.x;
-    for (uint i = 0u; i < range.sampleCount; ++i) {
-        const Path path = paths[i * range.pixelCount + gl_GlobalInvocationID.x];
-        if (any(isnan(path.radiance)) || any(isinf(path.radiance)))
-            addTally(kTallyDropped, 1u);
-        else
-            addSample(path.radiance, pixel);
-        if (path.isCut != 0u) {
-            addTally(kTallyCutPaths, 1u);
-            addTally(kTallyCutThroughput,
-                     uint(min(dot(path.throughput, vec3(1.0 / 3.0)), 65535.0) * 65536.0 + 0.5));
-        }
-    }
+    const uint pixel = range.firstPixel - range.bandFirstPixel + index;
+    const uint firstSlot = index * range.sampleCount;
+    for (uint channel = 0u; channel < 3u; ++channel)
+        accumulateChannel(channel, pixel, firstSlot);
+    accumulateCounts(pixel, firstSlot);
 }

@@ -39,3 +39,30 @@ uint addWithCarry(uint a, uint b, inout uint carry) {
     carry = first + second;
     return total;
 }
+
+// sum += x for a number of four words; false: it left the range and stays at its largest value.
+bool addExactly(inout uvec4 sum, float x, int lowestExponent) {
+    const Shifted s = toFixed(x, lowestExponent, 4u);
+    uint carry = 0u;
+    sum.x = addWithCarry(sum.x, wordOf(s, 0u), carry);
+    sum.y = addWithCarry(sum.y, wordOf(s, 1u), carry);
+    sum.z = addWithCarry(sum.z, wordOf(s, 2u), carry);
+    sum.w = addWithCarry(sum.w, wordOf(s, 3u), carry);
+    if (carry == 0u && !s.overflows)
+        return true;
+    sum = uvec4(0xffffffffu);
+    return false;
+}
+
+// The same for three words.
+bool addExactly(inout uvec3 sum, float x, int lowestExponent) {
+    const Shifted s = toFixed(x, lowestExponent, 3u);
+    uint carry = 0u;
+    sum.x = addWithCarry(sum.x, wordOf(s, 0u), carry);
+    sum.y = addWithCarry(sum.y, wordOf(s, 1u), carry);
+    sum.z = addWithCarry(sum.z, wordOf(s, 2u), carry);
+    if (carry == 0u && !s.overflows)
+        return true;
+    sum = uvec3(0xffffffffu);
+    return false;
+}

@@ -8,9 +8,9 @@ layout(set = 0, binding = BINDING_FRAME, std430) readonly buffer Frame { FramePa
 layout(push_constant) uniform Push { WaveRange range; };
 
 uint pixelOfSlot(uint slot) {
-    return range.firstPixel + slot % range.pixelCount;
+    return range.firstPixel + slot / range.sampleCount;
 }
 
 SampleKey keyOfSlot(uint slot, uint vertex) {
-    return SampleKey(frame.seed, pixelOfSlot(slot), range.firstSample + slot / range.pixelCount, vertex);
+    return SampleKey(frame.seed, pixelOfSlot(slot), range.firstSample + slot % range.sampleCount, vertex);
 }

@@ -56,7 +56,8 @@ struct DispatchSize {
     uint unused;
 };
 
-// The slots of one wave: slot = sample * pixelCount + pixel, both counted from the first of the wave.
+// The slots of one wave: slot = pixel * sampleCount + sample, both counted from the first of the wave. Neighbouring slots
+// so share a pixel, and the vector units of a device trace nearly the same camera ray.
 struct WaveRange {
     uint firstPixel; // within the image, row by row from the top
     uint pixelCount;

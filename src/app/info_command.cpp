@@ -65,7 +65,7 @@ void printText(const Scene& scene) {
     fmt::print("environment          {}\n", vectorText(scene.environment));
     fmt::print("bounds               {} to {}\n", vectorText(scene.bounds.lower),
                vectorText(scene.bounds.upper));
-    fmt::print("geometry memory      {:.2f} MiB\n", static_cast<double>(geometryBytes(scene)) / kMebibyte);
+    fmt::print("geometry memory      {:.3f} MiB\n", static_cast<double>(geometryBytes(scene)) / kMebibyte);
     fmt::print("extensions used      {}\n", listText(scene.extensionsUsed));
     fmt::print("extensions ignored   {}\n", listText(scene.ignoredExtensions));
     for (size_t i = 0; i < scene.cameras.size(); ++i)

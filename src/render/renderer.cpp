@@ -13,8 +13,14 @@ FrameParameters frameFor(const Scene& scene, const Camera& camera, const RenderS
     return frame;
 }
 
-uint32_t largestBand(const Film& film) {
-    return film.bands().front().rows * film.width(); // all but the last have equally many rows
+// Samples that a pixel takes while it is in the wave: they share one update of its film words, and the vector units
+// trace their camera rays together.
+constexpr uint32_t kSamplesTogether = 16;
+
+// Of `remaining` ones: more than kSamplesTogether only where the wave would not be full.
+uint32_t samplesPerWave(uint32_t remaining, uint32_t waveSize, const Film& film) {
+    const uint32_t bandPixels = film.bands().front().rows * film.width(); // no band has more rows than the first
+    return std::min(remaining, std::max(kSamplesTogether, waveSize / bandPixels));
 }
 
 } // namespace
@@ -54,9 +60,8 @@ Renderer::Renderer(gpu::Device& device, const Scene& scene, const Camera& camera
       wavefront_(device, scene_, film_, settings, frameFor(scene, camera, settings, scene_)) {}
 
 void Renderer::render(const KeepGoing& keepGoing) {
-    const uint32_t samplesPerWave = std::max(1u, settings_.waveSize / largestBand(film_));
     for (uint32_t done = 0; done < settings_.samples;) {
-        const uint32_t count = std::min(samplesPerWave, settings_.samples - done);
+        const uint32_t count = samplesPerWave(settings_.samples - done, settings_.waveSize, film_);
         for (size_t band = 0; band < film_.bands().size(); ++band)
             if (!renderBand(band, settings_.firstSample + done, count, keepGoing))
                 return;
