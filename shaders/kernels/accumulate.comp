@@ -2,19 +2,12 @@
 // Adds the finished paths of the wave to the film, one invocation a pixel, exactly.
 #include "lib/fixed_point.glsl"
 #include "scene/frame.glsl"
+#include "scene/tally.glsl"
 #include "scene/wave.glsl"
 #include "shared/film.h"
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = BINDING_FILM, std430) buffer Film { uint film[]; };
-layout(set = 0, binding = BINDING_TALLIES, std430) buffer Tallies { uint tallies[]; };
-
-// Adds to a 64-bit count in two words.
-void addTally(uint which, uint amount) {
-    const uint before = atomicAdd(tallies[2u * which], amount);
-    if (before + amount < before)
-        atomicAdd(tallies[2u * which + 1u], 1u);
-}
 
 bool isFinite(vec3 v) {
     return !any(isnan(v)) && !any(isinf(v));
@@ -49,14 +42,8 @@ void accumulateChannel(uint channel, uint pixel, uint firstSlot) {
 // The sample count, and what the ledger wants to know.
 void accumulateCounts(uint pixel, uint firstSlot) {
     uint dropped = 0u;
-    for (uint slot = firstSlot; slot < firstSlot + range.sampleCount; ++slot) {
+    for (uint slot = firstSlot; slot < firstSlot + range.sampleCount; ++slot)
         dropped += isFinite(paths[slot].radiance) ? 0u : 1u;
-        if (paths[slot].isCut == 0u)
-            continue;
-        const float throughput = dot(paths[slot].throughput, vec3(1.0 / 3.0));
-        addTally(kTallyCutPaths, 1u);
-        addTally(kTallyCutThroughput, uint(min(throughput, 65535.0) * 65536.0 + 0.5));
-    }
     if (dropped > 0u)
         addTally(kTallyDropped, dropped);
     film[kCountPlane * frame.bandPixels + pixel] += range.sampleCount - dropped;

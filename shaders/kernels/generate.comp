@@ -12,9 +12,9 @@ void main() {
         return;
     const uint pixel = pixelOfSlot(slot);
     const vec2 corner = vec2(pixel % frame.imageWidth, pixel / frame.imageWidth);
-    const vec2 jitter = sample3D(keyOfSlot(slot, 0u), kDimensionPixel).xy;
+    const vec2 jitter = sample2D(keyOfSlot(slot, 0u), kDimensionPixel);
     rays[slot] = cameraRay(frame, corner + jitter);
-    paths[slot] = Path(vec3(1.0), 0.0, vec3(0.0), 0u);
+    paths[slot] = Path(vec3(1.0), 0.0, vec3(0.0), 1.0);
     queues[rayQueueStart(0u, frame.waveSize) + slot] = slot;
     if (slot == 0u)
         counters[0].rays = range.pixelCount * range.sampleCount;

@@ -8,67 +8,106 @@
 #include "scene/interaction.glsl"
 #include "scene/light.glsl"
 #include "scene/material.glsl"
+#include "scene/tally.glsl"
 #include "scene/wave.glsl"
 
 layout(local_size_x = 64) in;
-layout(constant_id = CONSTANT_NEE) const uint kNee = 1u;
-layout(constant_id = CONSTANT_MIS) const uint kMis = kMisPower;
-layout(constant_id = CONSTANT_ROULETTE) const uint kRoulette = kRouletteThroughput;
 layout(set = 0, binding = BINDING_HITS, std430) readonly buffer Hits { Hit hits[]; };
 
-// How much of the emission found by this path's BSDF ray counts, next to what NEE found at the previous vertex.
-float emissionWeight(Path path, Interaction surface, float t, vec3 wo) {
-    const bool wasNeeImpossible = path.bsdfPdf == 0.0 || kNee == 0u || surface.emitter == kNoEmitter;
-    if (wasNeeImpossible)
+// A vertex of the path with all that its parts ask for.
+struct Vertex {
+    Interaction surface;
+    Surface bsdf;
+    Basis basis;
+    vec3 wo;        // local
+    float survival; // probability by albedo, known before a direction is drawn
+    SampleKey key;
+};
+
+// What comes from beyond the first vertex, limited if --clamp-indirect asks for it; `scatterings` before it is seen.
+vec3 clamped(vec3 radiance, uint scatterings) {
+    const float largest = max(radiance.x, max(radiance.y, radiance.z));
+    return scatterings > 1u && largest > frame.clampIndirect ? radiance * (frame.clampIndirect / largest) : radiance;
+}
+
+// How much of a light that this path's BSDF ray found counts, next to what NEE found at the previous vertex, which finds
+// that direction with density lightPdf.
+float foundLightWeight(float bsdfPdf, float lightPdf) {
+    if (bsdfPdf == 0.0 || kNee == 0u || lightPdf == 0.0)
         return 1.0;
-    if (kMis == kMisOff)
+    return kMis == kMisOff ? 0.0 : misWeight(kMis, bsdfPdf, lightPdf);
+}
+
+float hitLightPdf(Interaction surface, Hit hit, Ray ray) {
+    if (surface.emitter == kNoEmitter || kNee == 0u)
         return 0.0;
-    const float pdfArea = emitterPmf(surface.emitter) * squareToTrianglePdfArea(surface.area);
-    return misWeight(kMis, path.bsdfPdf, areaToSolidAngle(pdfArea, t * t, dot(surface.ng, wo)));
+    return lightPmf(surface.emitter) * triangleLightPdf(loadLeafTriangle(hit.leafTriangle), ray.origin, surface.area,
+                                                        hit.t * hit.t, dot(surface.ng, ray.direction));
 }
 
-// f |cos| for world directions, 0 where n and ng disagree about the side of wi.
-vec3 evalWorld(Surface bsdf, Basis basis, vec3 ng, vec3 wo, vec3 wi, out float pdf) {
-    const vec3 localWo = toLocal(basis, wo);
-    const vec3 localWi = toLocal(basis, wi);
-    pdf = 0.0;
-    if (dot(wi, ng) <= 0.0)
-        return vec3(0.0);
-    pdf = pdfBsdf(bsdf, localWo, localWi);
-    return evalBsdf(bsdf, localWo, localWi);
+float missLightPdf() {
+    return frame.environmentLight == kNoLight ? 0.0 : lightPmf(frame.environmentLight) * squareToSpherePdf();
 }
 
-// Picks a point on a light and prepares its shadow ray; false: nothing to be had.
-bool nextEvent(Interaction surface, Surface bsdf, Basis basis, vec3 wo, vec3 throughput, SampleKey key,
-               out ShadowRay shadow) {
-    const LightSample light = sampleLight(surface.p, sampleBits(key, kDimensionLight), frame.emitterCount);
-    float bsdfPdf;
-    const vec3 f = evalWorld(bsdf, basis, surface.ng, wo, light.wi, bsdfPdf);
-    const float weight = misWeight(kMis, light.pdf, bsdfPdf);
-    shadow.contribution = throughput * f * light.emission * (weight / light.pdf);
-    shadow.origin = offsetOrigin(surface.p, surface.pError, surface.ng, light.wi);
-    shadow.direction = offsetOrigin(light.p, light.pError, light.ng, -light.wi) - shadow.origin;
-    shadow.fromTriangle = surface.triangle;
+// n and ng must agree about the side of wi.
+bool isSameSide(Vertex v, vec3 wi, float localZ) {
+    return (dot(wi, v.surface.ng) > 0.0) == (localZ > 0.0);
+}
+
+// Picks a light and prepares its shadow ray; false: nothing to be had.
+bool nextEvent(Vertex v, vec3 throughput, out ShadowRay shadow) {
+    const LightSample light = sampleLight(frame, v.surface.p, sampleBits1D(v.key, kDimensionLightPick),
+                                          sample2D(v.key, kDimensionLightPoint));
+    const vec3 wi = toLocal(v.basis, light.wi);
+    if (!isSameSide(v, light.wi, wi.z))
+        return false;
+    const float bsdfPdf = pdfBsdf(v.bsdf, v.wo, wi) * (kMisSurvival != 0u ? v.survival : 1.0);
+    const float weight = light.isDelta ? 1.0 : misWeight(kMis, light.pdf, bsdfPdf);
+    const vec3 arriving = evalBsdf(v.bsdf, v.wo, wi) * light.radiance * (weight / light.pdf);
+    shadow.contribution = clamped(throughput * arriving, v.key.vertex);
+    shadow.origin = offsetOrigin(v.surface.p, v.surface.pError, v.surface.ng, light.wi);
+    shadow.direction = light.end - shadow.origin;
+    shadow.fromTriangle = v.surface.triangle;
     shadow.toTriangle = light.triangle;
     return light.pdf > 0.0 && shadow.contribution != vec3(0.0);
 }
 
-// Draws the next direction; false: absorbed, or killed by roulette.
-bool nextDirection(Interaction surface, Surface bsdf, Basis basis, vec3 wo, uint slot, uint vertex, inout Path path) {
-    const SampleKey key = keyOfSlot(slot, vertex);
-    const BsdfSample next = sampleBsdf(bsdf, toLocal(basis, wo), sample3D(key, kDimensionBsdf));
-    const vec3 wi = toWorld(basis, next.wi);
+// Draws the next ray; false: absorbed.
+bool nextRay(Vertex v, inout Path path, out Ray ray) {
+    const BsdfSample next =
+        sampleBsdf(v.bsdf, v.wo, sample2D(v.key, kDimensionBsdf), sample1D(v.key, kDimensionLobe));
+    const vec3 wi = toWorld(v.basis, next.wi);
+    ray = Ray(offsetOrigin(v.surface.p, v.surface.pError, v.surface.ng, wi), v.surface.triangle, wi, 0.0);
     path.throughput *= next.weight;
-    path.bsdfPdf = next.pdf;
-    if (path.throughput == vec3(0.0) || dot(wi, surface.ng) <= 0.0)
-        return false;
-    rays[slot] = Ray(offsetOrigin(surface.p, surface.pError, surface.ng, wi), surface.triangle, wi, 0.0);
+    path.bsdfPdf = next.pdf * (kMisSurvival != 0u ? v.survival : 1.0);
+    path.etaScale *= next.eta * next.eta;
+    return path.throughput != vec3(0.0) && isSameSide(v, wi, next.wi.z);
+}
 
-    const float survival = survivalProbability(kRoulette, vertex, frame.rouletteStart, path.throughput);
+// Kills the path or makes up for those that died; indirect light only: what NEE found stays.
+bool survives(Vertex v, inout Path path) {
+    if (v.key.vertex < frame.rouletteStart)
+        return true;
+    const float survival = min(v.survival, survivalByThroughput(kRoulette, path.throughput * path.etaScale));
     if (survival >= 1.0)
         return true;
+    if (sample1D(v.key, kDimensionRoulette) >= survival)
+        return false;
     path.throughput /= survival;
-    return sample3D(key, kDimensionRoulette).x < survival;
+    return true;
+}
+
+Vertex makeVertex(Interaction surface, MaterialRecord material, vec3 wo, SampleKey key) {
+    Vertex v;
+    v.surface = surface;
+    v.bsdf = surfaceOf(material, surface.isFront);
+    v.basis = makeBasis(surface.n);
+    v.wo = toLocal(v.basis, wo);
+    v.key = key;
+    v.survival = key.vertex < frame.rouletteStart
+                     ? 1.0
+                     : survivalByAlbedo(kRoulette, frame.rouletteProbability, directionalAlbedo(v.bsdf, v.wo));
+    return v;
 }
 
 void main() {
@@ -77,40 +116,41 @@ void main() {
         return;
     const uint slot = queues[rayQueueStart(bounce, frame.waveSize) + gl_GlobalInvocationID.x];
     const Hit hit = hits[slot];
+    const Ray ray = rays[slot];
     Path path = paths[slot];
     bool goesOn = false;
     bool wantsShadowRay = false;
-    const uint vertex = bounce + 1u;
 
     if (hit.t == kInfinity) {
-        path.radiance += path.throughput * frame.environment;
+        const vec3 found = path.throughput * frame.environment * foundLightWeight(path.bsdfPdf, missLightPdf());
+        path.radiance += clamped(found, bounce);
     } else {
-        const vec3 wo = -rays[slot].direction;
-        const Interaction surface = makeInteraction(hit, wo);
+        const Interaction surface = makeInteraction(hit, -ray.direction);
         const MaterialRecord material = fetchMaterial(surface.material);
 
         // ---- Emission ----
         const vec3 emission = emissionOf(material, surface.isFront);
         if (emission != vec3(0.0))
-            path.radiance += path.throughput * emission * emissionWeight(path, surface, hit.t, wo);
+            path.radiance += clamped(
+                path.throughput * emission * foundLightWeight(path.bsdfPdf, hitLightPdf(surface, hit, ray)), bounce);
 
         if (bounce < frame.maxBounces) {
-            const Surface bsdf = surfaceOf(material);
-            const Basis basis = makeBasis(surface.n);
+            const Vertex vertex = makeVertex(surface, material, -ray.direction, keyOfSlot(slot, bounce + 1u));
 
             // ---- Next-event estimation ----
-            if (kNee != 0u && frame.emitterCount > 0u) {
-                ShadowRay shadow;
-                wantsShadowRay =
-                    nextEvent(surface, bsdf, basis, wo, path.throughput, keyOfSlot(slot, vertex), shadow);
-                if (wantsShadowRay)
-                    shadowRays[slot] = shadow;
-            }
+            ShadowRay shadow;
+            if (kNee != 0u && frame.lightCount > 0u && hasNonDelta(vertex.bsdf))
+                wantsShadowRay = nextEvent(vertex, path.throughput, shadow);
+            if (wantsShadowRay)
+                shadowRays[slot] = shadow;
 
             // ---- BSDF sampling and roulette ----
-            goesOn = nextDirection(surface, bsdf, basis, wo, slot, vertex, path);
+            Ray next;
+            goesOn = nextRay(vertex, path, next) && survives(vertex, path);
+            if (goesOn)
+                rays[slot] = next;
         } else {
-            path.isCut = 1u;
+            tallyCutPath(path.throughput);
         }
     }
     paths[slot] = path;

@@ -1,8 +1,9 @@
 // Lambert lobe: sample, eval, pdf. Coupling to the layer above is the caller's.
+#include "lib/estimator.glsl"
 #include "lib/warp.glsl"
 
 vec3 sampleDiffuse(vec2 u) {
-    return squareToCosineHemisphere(u);
+    return kHemisphere == kHemisphereUniform ? squareToUniformHemisphere(u) : squareToCosineHemisphere(u);
 }
 
 vec3 evalDiffuse(vec3 color, vec3 wi) {
@@ -10,5 +11,6 @@ vec3 evalDiffuse(vec3 color, vec3 wi) {
 }
 
 float pdfDiffuse(vec3 wi) {
-    return squareToCosineHemispherePdf(wi.z);
+    return kHemisphere == kHemisphereUniform ? squareToUniformHemispherePdf(wi.z)
+                                             : squareToCosineHemispherePdf(wi.z);
 }

@@ -1,13 +1,26 @@
 // Russian roulette: the probability with which a path goes on.
-// Based on: Arvo, Kirk, "Particle Transport and Image Synthesis", SIGGRAPH 1990.
+// Based on: Arvo, Kirk, "Particle Transport and Image Synthesis", SIGGRAPH 1990; the albedo kinds as in the course.
 #include "shared/frame.h"
 
 // Survival by throughput stays below this, or a path between white walls would never end.
 const float kMaxSurvival = 0.95;
 
-// 1 where nothing can be killed: the caller must not divide then. `vertex` is 1 at the camera's first hit.
-float survivalProbability(uint kind, uint vertex, uint firstVertex, vec3 throughput) {
-    if (kind == kRouletteOff || vertex < firstVertex)
+// Kinds whose probability is known before the next direction is drawn. 1 where nothing can be killed: the caller must not
+// divide then.
+float survivalByAlbedo(uint kind, float constantProbability, vec3 albedo) {
+    if (kind == kRouletteConstant)
+        return constantProbability;
+    if (kind == kRouletteMeanAlbedo)
+        return clamp(dot(albedo, vec3(1.0 / 3.0)), 0.1, 0.9);
+    if (kind == kRouletteMaxAlbedo)
+        return clamp(max(albedo.x, max(albedo.y, albedo.z)), 0.0, 1.0);
+    return 1.0;
+}
+
+// The kind that goes by what the path carries: `throughput` after the next direction is drawn, without the scaling by
+// eta^2 that radiance undergoes inside glass.
+float survivalByThroughput(uint kind, vec3 throughput) {
+    if (kind != kRouletteThroughput)
         return 1.0;
     return min(max(throughput.x, max(throughput.y, throughput.z)), kMaxSurvival);
 }

@@ -1,5 +1,5 @@
 // Frame parameters, the range of the wave, and where a slot belongs in the image.
-#include "lib/random.glsl"
+#include "lib/sampler.glsl"
 #include "shared/bindings.h"
 #include "shared/frame.h"
 #include "shared/wavefront.h"

@@ -7,8 +7,9 @@
 #define BINDING_LEAF_TRIANGLES 1
 #define BINDING_TRIANGLE_NORMALS 2
 #define BINDING_MATERIALS 3
-#define BINDING_EMITTERS 4
+#define BINDING_LIGHTS 4
 #define BINDING_ALBEDO_TABLE 5
+#define BINDING_PUNCTUALS 6
 
 // Wave state, one element per path slot.
 #define BINDING_FRAME 8

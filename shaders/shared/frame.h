@@ -16,24 +16,43 @@ struct FrameParameters {
     vec3 cameraForward; // unit length
     uint seed;
     vec3 environment; // constant radiance
-    uint emitterCount;
+    uint lightCount;
+    vec3 sceneCenter; // of the sphere around everything, where light from infinity starts
+    float sceneRadius;
+    uint environmentLight; // index among the lights, or kNoLight
     uint maxBounces;
     uint rouletteStart; // first vertex (the camera's first hit is vertex 1) where a path may die
-    uint bandPixels;    // pixels of the film at hand
-    uint waveSize;      // slots
+    float rouletteProbability; // of survival, for the constant kind
+    float clampIndirect; // largest channel of what a path may bring from beyond its first vertex; infinite: no clamp
+    uint bandPixels;     // pixels of the film at hand
+    uint waveSize;       // slots
+    uint unused;
 };
 
-// Specialisation constants: the estimator settings that pick code.
-#define CONSTANT_NEE 0
-#define CONSTANT_MIS 1
-#define CONSTANT_ROULETTE 2
+// Specialisation constants: the estimator settings that pick code (lib/estimator.glsl).
+#define CONSTANT_SAMPLER 0
+#define CONSTANT_HEMISPHERE 1
+#define CONSTANT_NEE 2
+#define CONSTANT_MIS 3
+#define CONSTANT_ROULETTE 4
+#define CONSTANT_MIS_SURVIVAL 5
+#define CONSTANT_FRESNEL 6
 
 // Values of those constants; the C++ enumerations use the same numbers.
+SHARED_CONST uint kSamplerSobol = 0u;
+SHARED_CONST uint kSamplerIndependent = 1u;
+SHARED_CONST uint kHemisphereCosine = 0u;
+SHARED_CONST uint kHemisphereUniform = 1u;
 SHARED_CONST uint kMisPower = 0u;
 SHARED_CONST uint kMisBalance = 1u;
 SHARED_CONST uint kMisOff = 2u;
 SHARED_CONST uint kRouletteThroughput = 0u;
 SHARED_CONST uint kRouletteOff = 1u;
+SHARED_CONST uint kRouletteConstant = 2u;
+SHARED_CONST uint kRouletteMeanAlbedo = 3u;
+SHARED_CONST uint kRouletteMaxAlbedo = 4u;
+SHARED_CONST uint kFresnelExact = 0u;
+SHARED_CONST uint kFresnelSchlick = 1u;
 
 LAVALIGHT_SHARED_END
 

@@ -28,18 +28,39 @@ struct MaterialRecord {
     vec3 specularColor;
     float specular;
     float ior;
-    uint doubleSided;
-    uint unused0;
-    uint unused1;
+    float transmission;
+    uint flags; // kMaterial...
+    uint unused;
 };
+SHARED_CONST uint kMaterialDoubleSided = 1u;
+SHARED_CONST uint kMaterialSolid = 2u; // the boundary of a refracting body; else a transmissive surface is a thin wall
 
-// One texel an emissive triangle: its column of the alias table, and where its positions are.
-struct EmitterRecord {
+// One texel a light: its column of the alias table, and what it is.
+struct LightRecord {
     float probability; // of staying in this column
-    uint alias;        // the other emitter of this column
-    float pmf;         // with which the whole table picks this emitter
-    uint leafTriangle;
+    uint alias;        // the other light of this column
+    float pmf;         // with which the whole table picks this light
+    uint source;       // kind in the top two bits; below: leaf triangle, or index of the punctual light
 };
+SHARED_CONST uint kNoLight = 0xffffffffu;
+SHARED_CONST uint kLightKindShift = 30u;
+SHARED_CONST uint kLightIndexMask = 0x3fffffffu;
+SHARED_CONST uint kLightTriangle = 0u;
+SHARED_CONST uint kLightPunctual = 1u;
+SHARED_CONST uint kLightEnvironment = 2u;
+
+// Three texels a light of KHR_lights_punctual.
+struct PunctualRecord {
+    vec3 position;
+    uint kind;      // kPunctual...
+    vec3 direction; // unit length, the way the light shines
+    float coneScale;  // spot: (cos(angle) * scale + offset)^2, clamped to [0, 1]
+    vec3 intensity; // W/sr; directional: W/m^2
+    float coneOffset;
+};
+SHARED_CONST uint kPunctualPoint = 0u;
+SHARED_CONST uint kPunctualSpot = 1u;
+SHARED_CONST uint kPunctualDirectional = 2u;
 
 // Directional albedo of the GGX lobe, tabulated over (cosine, roughness); a row ends with its cosine-weighted average.
 SHARED_CONST uint kAlbedoCosines = 64u;

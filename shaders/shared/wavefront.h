@@ -26,9 +26,9 @@ struct Hit {
 
 struct Path {
     vec3 throughput; // product of f |cos| / pdf and 1 / survival so far
-    float bsdfPdf;   // solid-angle pdf of the current ray; 0: camera ray or delta lobe
+    float bsdfPdf;   // solid-angle pdf of the current ray as MIS takes it; 0: camera ray or delta lobe
     vec3 radiance;   // collected so far
-    uint isCut;      // 1: ended by --max-bounces while it still carried light
+    float etaScale;  // product of eta^2 over refractions: undoes the scaling of radiance for roulette
 };
 
 // A shadow ray with what it will add to its slot if nothing lies between t = 0 and 1 (the direction spans the whole

@@ -69,6 +69,9 @@ void fillResults(RenderReport& report, const Renderer& renderer, const gpu::Devi
     report.peakDeviceBytes = device.peakAllocatedBytes();
     report.samples = totalOf(rendering.sampleCounts);
     report.meanRadiance = meanOf(rendering.radiance);
+    const glm::dvec3 variance = meanOf(rendering.variance);
+    report.meanVariance = (variance.x + variance.y + variance.z) / 3.0;
+    report.errorEstimate = errorEstimate(rendering);
 }
 
 void printSummary(const RenderReport& report) {
@@ -126,11 +129,10 @@ int RenderCommand::run() {
     {
         const InterruptGuard guard;
         ProgressBar progress(!quiet_);
-        renderer.render([&](double fraction) {
+        report.stop = renderer.render([&](double fraction) {
             progress.show(fraction);
             return !guard.interrupted();
         });
-        report.isComplete = !guard.interrupted();
     }
     report.renderSeconds = watch.lap("render");
     failOnValidation(device);
@@ -143,7 +145,7 @@ int RenderCommand::run() {
     report.triangles = scene.triangleCount();
     report.warnings = scene.warnings;
     fillResults(report, renderer, device, rendering);
-    report.ledger = makeLedger(scene, report.tallies);
+    report.ledger = makeLedger(scene, settings, report.tallies, report.stop);
     if (!exr_.empty())
         writeExr(exr_, rendering, exrMetadata(report));
     if (!png_.empty())
@@ -154,7 +156,7 @@ int RenderCommand::run() {
         writeFileAtomically(report_, reportJson(report));
     if (!quiet_)
         printSummary(report);
-    return report.isComplete ? 0 : kInterrupted;
+    return report.stop == StopReason::interrupted ? kInterrupted : 0;
 }
 
 } // namespace lavalight

@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string_view>
@@ -10,6 +11,8 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "render/presets.h"
+#include "render/setting_names.h"
 
 namespace lavalight {
 namespace {
@@ -59,15 +62,45 @@ glm::vec3 parseEnvironment(const std::string& text) {
     return radiance;
 }
 
-template <typename Value> CLI::Validator oneOf(const std::map<std::string, Value>& values) {
-    return CLI::CheckedTransformer(values, CLI::ignore_case).description("");
+// An option for a setting with named values; its help and its errors list the names.
+template <typename Value>
+void addNamed(CLI::App& parser, const std::string& option, Value& value, const std::string& help) {
+    std::map<std::string, Value> values;
+    std::string names;
+    for (const SettingName<Value>& name : settingNames<Value>()) {
+        values.emplace(name.name, name.value);
+        names += fmt::format("{}{}", names.empty() ? "" : "|", name.name);
+    }
+    parser.add_option(option, value, help)
+        ->type_name(names)
+        ->transform(CLI::CheckedTransformer(values, CLI::ignore_case).description(""))
+        ->default_str(std::string(nameOf(value)));
+}
+
+void addSwitch(CLI::App& parser, const std::string& option, bool& value, const std::string& help) {
+    const std::map<std::string, bool> values{{"on", true}, {"off", false}};
+    parser.add_option(option, value, help)
+        ->type_name("on|off")
+        ->transform(CLI::CheckedTransformer(values, CLI::ignore_case).description(""))
+        ->default_str(value ? "on" : "off");
+}
+
+float parseClamp(const std::string& text) {
+    if (text == "off")
+        return std::numeric_limits<float>::infinity();
+    const auto value = parseNumber<float>(text);
+    if (!value || !(*value > 0.0f))
+        throw UsageError(fmt::format("--clamp-indirect: \"{}\" is neither off nor a radiance above 0", text));
+    return *value;
 }
 
 } // namespace
 
-RenderOptions::RenderOptions(CLI::App& parser) {
+RenderOptions::RenderOptions(CLI::App& parser) : parser_(&parser) {
     declareImage(parser);
+    declareStop(parser);
     declareEstimator(parser);
+    declareRoulette(parser);
     declareDevice(parser);
 }
 
@@ -77,27 +110,41 @@ void RenderOptions::declareImage(CLI::App& parser) {
     parser.add_option("--camera", camera_, "Camera by name or index; default: the first")->type_name("NAME|INDEX");
     parser.add_option("--env", environment_, "Constant radiance from all sides; replaces the scene's")
         ->type_name("R,G,B");
-    parser.add_option("--spp", settings_.samples, "Samples per pixel")->type_name("N");
-    parser.add_option("--seed", settings_.estimator.seed, "Another seed, other noise")->type_name("N");
+    parser.add_option("--seed", estimator_.seed, "Another seed, other noise")->type_name("N");
+}
+
+void RenderOptions::declareStop(CLI::App& parser) {
+    parser.add_option("--spp", settings_.samples, "Samples per pixel; no limit with --time or --target-error")
+        ->type_name("N");
+    parser.add_option("--time", settings_.seconds, "Stop after this time")->type_name("SECONDS");
+    parser.add_option("--target-error", settings_.targetError, "Stop at this estimated relMSE; enters the bias ledger")
+        ->type_name("RELMSE");
 }
 
 void RenderOptions::declareEstimator(CLI::App& parser) {
-    EstimatorSettings& e = settings_.estimator;
-    parser.add_option("--nee", nee_, "Next-event estimation: on, off (light is found only by hitting it)")
-        ->type_name("on|off")
-        ->check(CLI::IsMember({"on", "off"}));
-    parser.add_option("--mis", e.mis, "Weights of light and BSDF samples: power, balance, off")
-        ->type_name("power|balance|off")
-        ->transform(oneOf<Mis>({{"power", Mis::power}, {"balance", Mis::balance}, {"off", Mis::off}}))
-        ->default_str("power");
-    parser.add_option("--roulette", e.roulette, "Survival probability of a path: throughput, off")
-        ->type_name("throughput|off")
-        ->transform(oneOf<Roulette>({{"throughput", Roulette::throughput}, {"off", Roulette::off}}))
-        ->default_str("throughput");
-    parser.add_option("--roulette-start", e.rouletteStart, "First vertex where a path may die (first hit: 1)")
-        ->type_name("N");
+    EstimatorSettings& e = estimator_;
+    parser.add_option("--preset", preset_, "Settings by name (see lavalight presets); other options change them")
+        ->type_name("NAME");
+    addNamed(parser, "--sampler", e.sampler, "Sample numbers: Owen-scrambled Sobol, or independent");
+    addNamed(parser, "--hemisphere", e.hemisphere, "Directions of diffuse surfaces: by the cosine, or all alike");
+    addSwitch(parser, "--nee", e.nextEventEstimation, "Next-event estimation; off: light is found only by hitting it");
+    addNamed(parser, "--light-selection", e.lightSelection, "Which light NEE picks: by power, or all alike");
+    addNamed(parser, "--mis", e.mis, "Weights of light and BSDF samples");
+    addSwitch(parser, "--mis-survival", e.misSurvival, "MIS weights count the probability of survival");
+    addNamed(parser, "--fresnel", e.fresnel, "Reflectance of glass: exact, or Schlick's approximation");
     parser.add_option("--max-bounces", e.maxBounces, "Scattering vertices of a path; 0: emission only, 1: direct light")
         ->type_name("N");
+    parser.add_option("--clamp-indirect", clampIndirect_, "Largest indirect contribution; biased, enters the ledger")
+        ->type_name("off|X");
+}
+
+void RenderOptions::declareRoulette(CLI::App& parser) {
+    EstimatorSettings& e = estimator_;
+    addNamed(parser, "--roulette", e.roulette, "What decides whether a path goes on");
+    parser.add_option("--roulette-start", e.rouletteStart, "First vertex where a path may die (first hit: 1)")
+        ->type_name("N");
+    parser.add_option("--roulette-probability", e.rouletteProbability, "Survival probability of --roulette constant")
+        ->type_name("P");
 }
 
 void RenderOptions::declareDevice(CLI::App& parser) {
@@ -107,7 +154,7 @@ void RenderOptions::declareDevice(CLI::App& parser) {
         {"any", gpu::RequiredDevice::any}, {"cpu", gpu::RequiredDevice::cpu}, {"gpu", gpu::RequiredDevice::gpu}};
     parser.add_option("--require-device", device_.required, "Refuse to run on another kind of device")
         ->type_name("any|cpu|gpu")
-        ->transform(oneOf(kinds))
+        ->transform(CLI::CheckedTransformer(kinds, CLI::ignore_case).description(""))
         ->default_str("any");
     parser.add_flag("--validate", device_.validate, "Run the Vulkan validation layer; any message fails the render");
     parser.add_option("--wave-size", settings_.waveSize, "Paths in flight; changes no bit of the image")->type_name("N");
@@ -118,7 +165,28 @@ void RenderOptions::declareDevice(CLI::App& parser) {
 
 RenderSettings RenderOptions::settings() const {
     RenderSettings settings = settings_;
-    settings.estimator.nextEventEstimation = nee_ == "on";
+    settings.estimator = preset_.empty() ? EstimatorSettings{} : findPreset(preset_).settings;
+    // An option that was given wins over the preset.
+    const auto take = [&](const char* option, auto member) {
+        if (parser_->count(option) > 0)
+            settings.estimator.*member = estimator_.*member;
+    };
+    take("--sampler", &EstimatorSettings::sampler);
+    take("--hemisphere", &EstimatorSettings::hemisphere);
+    take("--nee", &EstimatorSettings::nextEventEstimation);
+    take("--light-selection", &EstimatorSettings::lightSelection);
+    take("--mis", &EstimatorSettings::mis);
+    take("--mis-survival", &EstimatorSettings::misSurvival);
+    take("--fresnel", &EstimatorSettings::fresnel);
+    take("--max-bounces", &EstimatorSettings::maxBounces);
+    take("--roulette", &EstimatorSettings::roulette);
+    take("--roulette-start", &EstimatorSettings::rouletteStart);
+    take("--roulette-probability", &EstimatorSettings::rouletteProbability);
+    take("--seed", &EstimatorSettings::seed);
+    settings.estimator.clampIndirect = parseClamp(clampIndirect_);
+    const bool stopsEarly = settings.seconds > 0.0 || settings.targetError > 0.0;
+    if (stopsEarly && parser_->count("--spp") == 0)
+        settings.samples = 0x7fffffff;
     if (!size_.empty())
         parseSize(size_, settings);
     if (!environment_.empty())

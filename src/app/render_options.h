@@ -26,13 +26,18 @@ class RenderOptions {
 
   private:
     void declareImage(CLI::App& parser);
+    void declareStop(CLI::App& parser);
     void declareEstimator(CLI::App& parser);
+    void declareRoulette(CLI::App& parser);
     void declareDevice(CLI::App& parser);
 
+    CLI::App* parser_; // asked which options were given
     std::string size_;
     std::string camera_;
     std::string environment_;
-    std::string nee_ = "on";
+    std::string preset_;
+    std::string clampIndirect_ = "off";
+    EstimatorSettings estimator_; // values of the options; those not given are taken from the preset
     RenderSettings settings_;
     gpu::DeviceConfig device_;
 };

@@ -55,11 +55,6 @@ Emitters findEmitters(const Scene& scene) {
     emitters.emitterOfTriangle.reserve(scene.triangleCount());
     for (const Mesh& mesh : scene.meshes)
         collect(mesh, scene.materials[mesh.material], emitters);
-    std::vector<double> powers;
-    powers.reserve(emitters.list.size());
-    for (const Emitter& emitter : emitters.list)
-        powers.push_back(emitter.power);
-    emitters.table = buildAliasTable(powers);
     return emitters;
 }
 

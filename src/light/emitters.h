@@ -1,10 +1,9 @@
-// The triangles that emit light, and how to pick one by its power.
+// The triangles that emit light.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
-#include "light/alias_table.h"
 #include "scene/scene.h"
 #include "shared/bvh.h"
 
@@ -18,7 +17,6 @@ struct Emitter {
 
 struct Emitters {
     std::vector<Emitter> list;
-    std::vector<AliasEntry> table;           // beside `list`, by power; its pmf serves sampling and MIS
     std::vector<uint32_t> emitterOfTriangle; // per triangle of the scene: index into `list` or kNoEmitter
     double totalPower = 0.0;                 // W
 };

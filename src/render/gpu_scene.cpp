@@ -1,11 +1,9 @@
 #include "render/gpu_scene.h"
 
-#include <chrono>
-
-#include <glm/gtc/packing.hpp>
+#include <algorithm>
+#include <cmath>
 
 #include "accel/triangle.h"
-#include "light/emitters.h"
 #include "render/albedo_table.h"
 #include "render/octahedral.h"
 #include "shared/scene.h"
@@ -17,8 +15,8 @@ uint32_t materialWord(const Mesh& mesh, const Material& material) {
     uint32_t word = mesh.material;
     if (mesh.normals.empty())
         word |= kFlatBit;
-    if (material.doubleSided)
-        word |= kNeverCulledBit;
+    if (material.doubleSided || (material.isSolid && material.transmission > 0.0f))
+        word |= kNeverCulledBit; // the far side of a glass body is part of what is seen through it
     return word;
 }
 
@@ -55,23 +53,56 @@ std::vector<TriangleNormals> packNormals(const Scene& scene) {
     return packed;
 }
 
+uint32_t materialFlags(const Material& material) {
+    return (material.doubleSided ? kMaterialDoubleSided : 0u) | (material.isSolid ? kMaterialSolid : 0u);
+}
+
 std::vector<MaterialRecord> packMaterials(const Scene& scene) {
     std::vector<MaterialRecord> packed;
     for (const Material& m : scene.materials)
         packed.push_back({m.baseColor, m.metallic, m.emission, m.roughness, m.specularColor, m.specular, m.ior,
-                          m.doubleSided ? 1u : 0u, 0, 0});
+                          m.transmission, materialFlags(m), 0});
     return packed;
 }
 
-std::vector<EmitterRecord> packEmitters(const Emitters& emitters, const Bvh& bvh) {
-    std::vector<EmitterRecord> packed(emitters.list.size());
-    for (size_t i = 0; i < packed.size(); ++i)
-        packed[i] = {emitters.table[i].probability, emitters.table[i].alias, emitters.table[i].pmf, 0};
-    for (size_t leaf = 0; leaf < bvh.leafTriangles.size(); ++leaf) {
-        const uint32_t emitter = emitters.emitterOfTriangle[bvh.leafTriangles[leaf]];
+// What light number i is, in the encoding of LightRecord::source; emitters by the first leaf triangle that shows them.
+std::vector<uint32_t> lightSources(const Lights& lights, const Bvh& bvh) {
+    std::vector<uint32_t> sources(lights.emitters.list.size());
+    for (size_t leaf = bvh.leafTriangles.size(); leaf-- > 0;) {
+        const uint32_t emitter = lights.emitters.emitterOfTriangle[bvh.leafTriangles[leaf]];
         if (emitter != kNoEmitter)
-            packed[emitter].leafTriangle = static_cast<uint32_t>(leaf);
+            sources[emitter] = kLightTriangle << kLightKindShift | static_cast<uint32_t>(leaf);
     }
+    for (uint32_t i = 0; i < lights.punctuals.size(); ++i)
+        sources.push_back(kLightPunctual << kLightKindShift | i);
+    if (lights.environment)
+        sources.push_back(kLightEnvironment << kLightKindShift);
+    return sources;
+}
+
+std::vector<LightRecord> packLights(const Lights& lights, const Bvh& bvh) {
+    const std::vector<uint32_t> sources = lightSources(lights, bvh);
+    std::vector<LightRecord> packed;
+    for (size_t i = 0; i < sources.size(); ++i)
+        packed.push_back({lights.table[i].probability, lights.table[i].alias, lights.table[i].pmf, sources[i]});
+    return packed;
+}
+
+// Cone scale and offset as KHR_lights_punctual defines them, with its guard against equal angles.
+PunctualRecord packPunctual(const PunctualLight& light) {
+    const float inner = std::cos(light.innerConeAngle);
+    const float outer = std::cos(light.outerConeAngle);
+    const float scale = 1.0f / std::max(0.001f, inner - outer);
+    const uint32_t kind = light.kind == PunctualKind::point  ? kPunctualPoint
+                          : light.kind == PunctualKind::spot ? kPunctualSpot
+                                                             : kPunctualDirectional;
+    return {light.position, kind, light.direction, scale, light.intensity, -outer * scale};
+}
+
+std::vector<PunctualRecord> packPunctuals(const Scene& scene, const Lights& lights) {
+    std::vector<PunctualRecord> packed;
+    for (const uint32_t index : lights.punctuals)
+        packed.push_back(packPunctual(scene.punctualLights[index]));
     return packed;
 }
 
@@ -83,18 +114,21 @@ struct GpuScene::Prepared {
     std::vector<LeafTriangle> leafTriangles;
     std::vector<TriangleNormals> normals;
     std::vector<MaterialRecord> materials;
-    std::vector<EmitterRecord> emitters;
+    std::vector<LightRecord> lights;
+    std::vector<PunctualRecord> punctuals;
+    uint32_t environmentLight;
 };
 
-GpuScene::Prepared GpuScene::prepare(const Scene& scene) {
+GpuScene::Prepared GpuScene::prepare(const Scene& scene, const Lights& lights) {
     const std::vector<Triangle> triangles = sceneTriangles(scene);
-    const Emitters emitters = findEmitters(scene);
     Prepared prepared;
     prepared.bvh = buildBvh(triangles);
-    prepared.leafTriangles = packLeafTriangles(prepared.bvh, triangles, emitters, materialWords(scene));
+    prepared.leafTriangles = packLeafTriangles(prepared.bvh, triangles, lights.emitters, materialWords(scene));
     prepared.normals = packNormals(scene);
     prepared.materials = packMaterials(scene);
-    prepared.emitters = packEmitters(emitters, prepared.bvh);
+    prepared.lights = packLights(lights, prepared.bvh);
+    prepared.punctuals = packPunctuals(scene, lights);
+    prepared.environmentLight = lights.environment.value_or(kNoLight);
     return prepared;
 }
 
@@ -109,27 +143,31 @@ template <typename T> gpu::Buffer uploadTexels(gpu::Device& device, const char* 
 
 } // namespace
 
-GpuScene::GpuScene(gpu::Device& device, const Scene& scene) : GpuScene(device, prepare(scene)) {}
+GpuScene::GpuScene(gpu::Device& device, const Scene& scene, const glm::vec3& environment, LightSelection selection)
+    : GpuScene(device, prepare(scene, collectLights(scene, environment, selection))) {}
 
 GpuScene::GpuScene(gpu::Device& device, const Prepared& prepared)
-    : emitterCount_(static_cast<uint32_t>(prepared.emitters.size())), bvhSeconds_(prepared.bvh.buildSeconds),
+    : lightCount_(static_cast<uint32_t>(prepared.lights.size())), environmentLight_(prepared.environmentLight),
+      bvhSeconds_(prepared.bvh.buildSeconds),
       nodes_(uploadTexels(device, "BVH nodes", prepared.bvh.nodes)),
       leafTriangles_(uploadTexels(device, "leaf triangles", prepared.leafTriangles)),
       normals_(uploadTexels(device, "triangle normals", prepared.normals)),
       materials_(uploadTexels(device, "materials", prepared.materials)),
-      emitters_(uploadTexels(device, "emitters", prepared.emitters)), albedoTable_(makeAlbedoTable(device)) {}
+      lights_(uploadTexels(device, "lights", prepared.lights)),
+      punctuals_(uploadTexels(device, "punctual lights", prepared.punctuals)), albedoTable_(makeAlbedoTable(device)) {}
 
 void GpuScene::addTo(gpu::ResourceTable& resources) const {
     resources.set("bvhNodes", nodes_);
     resources.set("leafTriangles", leafTriangles_);
     resources.set("triangleNormals", normals_);
     resources.set("materials", materials_);
-    resources.set("emitters", emitters_);
+    resources.set("lights", lights_);
+    resources.set("punctuals", punctuals_);
     resources.set("albedoTable", albedoTable_);
 }
 
 uint64_t GpuScene::bytes() const {
-    return nodes_.bytes() + leafTriangles_.bytes() + normals_.bytes() + materials_.bytes() + emitters_.bytes() +
+    return nodes_.bytes() + leafTriangles_.bytes() + normals_.bytes() + materials_.bytes() + lights_.bytes() + punctuals_.bytes() +
            albedoTable_.bytes();
 }
 

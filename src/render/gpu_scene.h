@@ -6,34 +6,40 @@
 #include "accel/bvh.h"
 #include "gpu/buffer.h"
 #include "gpu/kernel.h"
+#include "light/lights.h"
 #include "scene/scene.h"
 
 namespace lavalight {
 
 class GpuScene {
   public:
-    // Builds the BVH and the light table, then uploads. Throws Error where a limit of the device is exceeded.
-    GpuScene(gpu::Device& device, const Scene& scene);
+    // Builds the BVH and the light table, then uploads. `environment`: constant radiance from all sides. Throws Error where
+    // a limit of the device is exceeded.
+    GpuScene(gpu::Device& device, const Scene& scene, const glm::vec3& environment, LightSelection selection);
 
     // Puts the buffers into `resources` under the names of the kernels.
     void addTo(gpu::ResourceTable& resources) const;
 
-    [[nodiscard]] uint32_t emitterCount() const { return emitterCount_; }
+    [[nodiscard]] uint32_t lightCount() const { return lightCount_; }
+    // Number of the environment among the lights, or kNoLight.
+    [[nodiscard]] uint32_t environmentLight() const { return environmentLight_; }
     [[nodiscard]] double bvhSeconds() const { return bvhSeconds_; }
     [[nodiscard]] uint64_t bytes() const;
 
   private:
     struct Prepared;
     GpuScene(gpu::Device& device, const Prepared& prepared);
-    [[nodiscard]] static Prepared prepare(const Scene& scene);
+    [[nodiscard]] static Prepared prepare(const Scene& scene, const Lights& lights);
 
-    uint32_t emitterCount_;
+    uint32_t lightCount_;
+    uint32_t environmentLight_;
     double bvhSeconds_;
     gpu::Buffer nodes_;
     gpu::Buffer leafTriangles_;
     gpu::Buffer normals_;
     gpu::Buffer materials_;
-    gpu::Buffer emitters_;
+    gpu::Buffer lights_;
+    gpu::Buffer punctuals_;
     gpu::Buffer albedoTable_;
 };
 

@@ -1,12 +1,23 @@
 #include "render/ledger.h"
 
+#include <cmath>
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 namespace lavalight {
 
-std::vector<LedgerEntry> makeLedger(const Scene& scene, const FilmTallies& tallies) {
+std::vector<LedgerEntry> makeLedger(const Scene& scene, const RenderSettings& settings, const FilmTallies& tallies,
+                                    StopReason stop) {
     std::vector<LedgerEntry> ledger;
+    const EstimatorSettings& estimator = settings.estimator;
+    if (std::isfinite(estimator.clampIndirect))
+        ledger.push_back({"clamp-indirect", fmt::format("indirect light was limited to {}", estimator.clampIndirect)});
+    if (!estimator.nextEventEstimation && !scene.punctualLights.empty())
+        ledger.push_back({"unreachable-lights", fmt::format("--nee off cannot find {} lights without size",
+                                                            scene.punctualLights.size())});
+    if (stop == StopReason::targetError)
+        ledger.push_back({"stopped-on-estimate", fmt::format("the error estimate reached {}", settings.targetError)});
     if (tallies.cutPaths > 0)
         ledger.push_back({"cut-paths", fmt::format("{} paths ended by --max-bounces, mean throughput {:.4g}",
                                                    tallies.cutPaths, tallies.cutThroughput)});

@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "render/film.h"
+#include "render/renderer.h"
+#include "render/settings.h"
 #include "scene/scene.h"
 
 namespace lavalight {
@@ -15,7 +17,8 @@ struct LedgerEntry {
 };
 
 // Empty for an unbiased image of everything that the scene asks for.
-[[nodiscard]] std::vector<LedgerEntry> makeLedger(const Scene& scene, const FilmTallies& tallies);
+[[nodiscard]] std::vector<LedgerEntry> makeLedger(const Scene& scene, const RenderSettings& settings,
+                                                  const FilmTallies& tallies, StopReason stop);
 
 // One line for the EXR header: "none", or entries joined by "; ".
 [[nodiscard]] std::string ledgerText(const std::vector<LedgerEntry>& ledger);

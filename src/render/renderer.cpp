@@ -1,7 +1,10 @@
 #include "render/renderer.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+
+#include "shared/scene.h"
 
 namespace lavalight {
 namespace {
@@ -9,8 +12,13 @@ namespace {
 FrameParameters frameFor(const Scene& scene, const Camera& camera, const RenderSettings& settings,
                          const GpuScene& gpuScene) {
     FrameParameters frame = makeFrame(scene, camera, settings);
-    frame.emitterCount = gpuScene.emitterCount();
+    frame.lightCount = gpuScene.lightCount();
+    frame.environmentLight = gpuScene.environmentLight();
     return frame;
+}
+
+glm::vec3 environmentOf(const Scene& scene, const RenderSettings& settings) {
+    return settings.environment.value_or(scene.environment);
 }
 
 // Samples that a pixel takes while it is in the wave: they share one update of its film words, and the vector units
@@ -47,26 +55,47 @@ FrameParameters makeFrame(const Scene& scene, const Camera& camera, const Render
     frame.imageWidth = settings.width;
     frame.imageHeight = settings.height;
     frame.seed = settings.estimator.seed;
-    frame.environment = settings.environment.value_or(scene.environment);
+    frame.environment = environmentOf(scene, settings);
+    frame.environmentLight = kNoLight;
+    frame.sceneCenter = scene.bounds.center();
+    frame.sceneRadius = scene.bounds.radius();
     frame.maxBounces = settings.estimator.maxBounces;
     frame.rouletteStart = settings.estimator.rouletteStart;
+    frame.rouletteProbability = settings.estimator.rouletteProbability;
+    frame.clampIndirect = settings.estimator.clampIndirect;
     frame.waveSize = settings.waveSize;
     return frame;
 }
 
 Renderer::Renderer(gpu::Device& device, const Scene& scene, const Camera& camera, const RenderSettings& settings)
-    : settings_(settings), scene_(device, scene),
+    : settings_(settings),
+      scene_(device, scene, environmentOf(scene, settings), settings.estimator.lightSelection),
       film_(device, settings.width, settings.height, settings.bandRows),
       wavefront_(device, scene_, film_, settings, frameFor(scene, camera, settings, scene_)) {}
 
-void Renderer::render(const KeepGoing& keepGoing) {
+StopReason Renderer::render(const KeepGoing& keepGoing) {
+    const auto start = std::chrono::steady_clock::now();
+    const auto mayGoOn = [&](double fraction) {
+        const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        isOutOfTime_ = settings_.seconds > 0.0 && seconds >= settings_.seconds;
+        return keepGoing(isTimed() ? std::max(fraction, seconds / settings_.seconds) : fraction) && !isOutOfTime_;
+    };
     for (uint32_t done = 0; done < settings_.samples;) {
-        const uint32_t count = samplesPerWave(settings_.samples - done, settings_.waveSize, film_);
+        const uint32_t count = nextPass(done);
         for (size_t band = 0; band < film_.bands().size(); ++band)
-            if (!renderBand(band, settings_.firstSample + done, count, keepGoing))
-                return;
+            if (!renderBand(band, settings_.firstSample + done, count, mayGoOn))
+                return isOutOfTime_ ? StopReason::time : StopReason::interrupted;
         done += count;
+        if (settings_.targetError > 0.0 && done > 1 && errorEstimate(rendering()) <= settings_.targetError)
+            return StopReason::targetError;
     }
+    return StopReason::samples;
+}
+
+// A render that may stop at any moment starts with passes of few samples, so that every pixel has some.
+uint32_t Renderer::nextPass(uint32_t done) const {
+    const uint32_t count = samplesPerWave(settings_.samples - done, settings_.waveSize, film_);
+    return isTimed() || settings_.targetError > 0.0 ? std::min(count, std::max(1u, done)) : count;
 }
 
 bool Renderer::renderBand(size_t band, uint32_t firstSample, uint32_t sampleCount, const KeepGoing& keepGoing) {
@@ -83,6 +112,16 @@ bool Renderer::renderBand(size_t band, uint32_t firstSample, uint32_t sampleCoun
             return false;
     }
     return true;
+}
+
+double errorEstimate(const Rendering& rendering) {
+    double sum = 0.0;
+    for (size_t i = 0; i < rendering.radiance.pixels.size(); ++i) {
+        const glm::dvec3 mean(rendering.radiance.pixels[i]);
+        const glm::dvec3 relative = glm::dvec3(rendering.variance.pixels[i]) / (mean * mean + 0.01);
+        sum += relative.x + relative.y + relative.z;
+    }
+    return sum / (3.0 * static_cast<double>(rendering.radiance.pixels.size()));
 }
 
 } // namespace lavalight

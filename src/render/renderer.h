@@ -17,6 +17,8 @@
 
 namespace lavalight {
 
+enum class StopReason { samples, time, targetError, interrupted };
+
 class Renderer {
   public:
     // Uploads the scene and builds the kernels. `settings.width` must be resolved (resolveSize) and the settings
@@ -28,9 +30,9 @@ class Renderer {
     // Asked between waves with the fraction done so far, in [0, 1]; false ends the render early.
     using KeepGoing = std::function<bool(double fraction)>;
 
-    // Takes all samples that the settings ask for. The film is valid after an early end too: each pixel knows how many
-    // samples it has.
-    void render(const KeepGoing& keepGoing);
+    // Takes samples until the settings or `keepGoing` say stop. The film is valid after an early end too: each pixel knows
+    // how many samples it has.
+    StopReason render(const KeepGoing& keepGoing);
 
     [[nodiscard]] const Film& film() const { return film_; }
     [[nodiscard]] Rendering rendering() const { return film_.resolve(); }
@@ -41,12 +43,20 @@ class Renderer {
     [[nodiscard]] bool renderBand(size_t band, uint32_t firstSample, uint32_t sampleCount,
                                   const KeepGoing& keepGoing);
 
+    [[nodiscard]] uint32_t nextPass(uint32_t done) const;
+    [[nodiscard]] bool isTimed() const { return settings_.seconds > 0.0; }
+
     RenderSettings settings_;
     GpuScene scene_;
     Film film_;
     Wavefront wavefront_;
     uint64_t pathsDone_ = 0;
+    bool isOutOfTime_ = false;
 };
+
+// What --target-error is compared with: mean(Var / (mean^2 + 0.01)) over pixels and channels, Var being the variance of a
+// pixel's mean. It estimates relMSE for independent samples; Sobol's are correlated, and for them it is an upper bound.
+[[nodiscard]] double errorEstimate(const Rendering& rendering);
 
 // Width from the camera's aspect ratio where the settings leave it open (16:9 where the camera does too).
 [[nodiscard]] RenderSettings resolveSize(RenderSettings settings, const Camera& camera);

@@ -42,6 +42,15 @@ Json raysJson(const RenderReport& report) {
             {"perSecond", perSecond(report.rays.total(), report.renderSeconds)}};
 }
 
+// Sobol's samples are correlated, so that the film's variance overstates theirs.
+Json errorJson(const RenderReport& report) {
+    const double cost = report.meanVariance * report.renderSeconds;
+    return {{"meanVariance", report.meanVariance},
+            {"estimatedRelMse", report.errorEstimate},
+            {"isUpperBound", report.settings.estimator.sampler == Sampler::sobol},
+            {"efficiency", cost > 0.0 ? 1.0 / cost : 0.0}};
+}
+
 Json ledgerJson(const std::vector<LedgerEntry>& ledger) {
     Json json = Json::array();
     for (const LedgerEntry& entry : ledger)
@@ -50,6 +59,20 @@ Json ledgerJson(const std::vector<LedgerEntry>& ledger) {
 }
 
 } // namespace
+
+std::string_view nameOf(StopReason reason) {
+    switch (reason) {
+    case StopReason::samples:
+        return "samples";
+    case StopReason::time:
+        return "time";
+    case StopReason::targetError:
+        return "target-error";
+    case StopReason::interrupted:
+        return "interrupted";
+    }
+    return "";
+}
 
 Metadata exrMetadata(const RenderReport& report) {
     Metadata metadata{{"version", std::string(kVersion)},
@@ -61,7 +84,7 @@ Metadata exrMetadata(const RenderReport& report) {
                                                                       (static_cast<double>(report.settings.width) *
                                                                        report.settings.height))},
                       {"render-seconds", fmt::format("{:.3f}", report.renderSeconds)},
-                      {"complete", report.isComplete ? "yes" : "no, interrupted"},
+                      {"complete", report.stop == StopReason::interrupted ? "no, interrupted" : "yes"},
                       {"bias-ledger", ledgerText(report.ledger)}};
     for (const auto& [key, value] : describe(report.settings))
         metadata.emplace_back("option:" + key, value);
@@ -80,7 +103,8 @@ std::string reportJson(const RenderReport& report) {
                       {"api", report.device.apiVersion}};
     json["settings"] = pairsJson(describe(report.settings));
     json["waveSize"] = report.settings.waveSize;
-    json["complete"] = report.isComplete;
+    json["complete"] = report.stop != StopReason::interrupted;
+    json["stoppedBy"] = nameOf(report.stop);
     json["seconds"] = stagesJson(report.stages);
     json["kernels"] = kernelsJson(report.kernels);
     json["rays"] = raysJson(report);
@@ -88,6 +112,7 @@ std::string reportJson(const RenderReport& report) {
                        {"perSecond", perSecond(report.samples, report.renderSeconds)},
                        {"dropped", report.tallies.droppedSamples}};
     json["meanRadiance"] = {report.meanRadiance.x, report.meanRadiance.y, report.meanRadiance.z};
+    json["error"] = errorJson(report);
     json["memory"] = {{"sceneBytes", report.sceneBytes}, {"peakDeviceBytes", report.peakDeviceBytes}};
     json["ledger"] = ledgerJson(report.ledger);
     json["warnings"] = report.warnings;

@@ -33,9 +33,12 @@ struct RenderReport {
     std::vector<LedgerEntry> ledger;
     std::vector<std::string> warnings;
     glm::dvec3 meanRadiance{0.0};
-    bool isComplete = true; // false: interrupted
+    double meanVariance = 0.0;  // of the pixels' means, over pixels and channels
+    double errorEstimate = 0.0; // see errorEstimate()
+    StopReason stop = StopReason::samples;
 };
 
+[[nodiscard]] std::string_view nameOf(StopReason reason);
 [[nodiscard]] Metadata exrMetadata(const RenderReport& report);
 [[nodiscard]] std::string reportJson(const RenderReport& report);
 

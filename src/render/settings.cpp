@@ -1,15 +1,39 @@
 #include "render/settings.h"
 
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "render/setting_names.h"
 
 namespace lavalight {
 namespace {
 
-void requireRange(const char* option, uint64_t value, uint64_t least, uint64_t most) {
-    if (value < least || value > most)
+void requireRange(const char* option, double value, double least, double most) {
+    if (!(value >= least && value <= most))
         throw UsageError(fmt::format("{}: {} is outside the range {} to {}", option, value, least, most));
+}
+
+// Survival is known before the direction is drawn, as --mis-survival needs it.
+bool isKnownBeforeSampling(Roulette roulette) {
+    return roulette == Roulette::constant || roulette == Roulette::meanAlbedo || roulette == Roulette::maxAlbedo;
+}
+
+void checkEstimator(const EstimatorSettings& e) {
+    constexpr double most32 = 0x7fffffff;
+    requireRange("--max-bounces", e.maxBounces, 0, kMaxBounceLimit);
+    requireRange("--roulette-start", e.rouletteStart, 1, most32);
+    if (!(e.rouletteProbability > 0.0f && e.rouletteProbability <= 1.0f))
+        throw UsageError(fmt::format("--roulette-probability: {} is outside the range above 0 to 1: a path that never "
+                                     "survives cannot stand for the others",
+                                     e.rouletteProbability));
+    if (!(e.clampIndirect > 0.0f))
+        throw UsageError(fmt::format("--clamp-indirect: {} is not above 0", e.clampIndirect));
+    if (e.misSurvival && !isKnownBeforeSampling(e.roulette))
+        throw UsageError(fmt::format("--mis-survival on needs a --roulette of constant, mean-albedo or max-albedo, whose "
+                                     "probability does not depend on the direction drawn; it is {}",
+                                     nameOf(e.roulette)));
 }
 
 } // namespace
@@ -17,44 +41,37 @@ void requireRange(const char* option, uint64_t value, uint64_t least, uint64_t m
 void checkSettings(const RenderSettings& settings) {
     requireRange("--size (width)", settings.width, 1, kMaxImageSide);
     requireRange("--size (height)", settings.height, 1, kMaxImageSide);
-    requireRange("--spp", settings.samples, 1, 0x7fffffffu);
+    requireRange("--spp", settings.samples, 1, 0x7fffffff);
     requireRange("--wave-size", settings.waveSize, 64, 4000000);
-    requireRange("--max-bounces", settings.estimator.maxBounces, 0, kMaxBounceLimit);
-    requireRange("--roulette-start", settings.estimator.rouletteStart, 1, 0x7fffffffu);
-}
-
-std::string_view nameOf(Mis value) {
-    switch (value) {
-    case Mis::power:
-        return "power";
-    case Mis::balance:
-        return "balance";
-    case Mis::off:
-        return "off";
-    }
-    return "";
-}
-
-std::string_view nameOf(Roulette value) {
-    return value == Roulette::throughput ? "throughput" : "off";
+    requireRange("--time", settings.seconds, 0, 1e9);
+    requireRange("--target-error", settings.targetError, 0, 1e9);
+    checkEstimator(settings.estimator);
 }
 
 std::vector<std::pair<std::string, std::string>> describe(const RenderSettings& settings) {
     const EstimatorSettings& e = settings.estimator;
-    std::vector<std::pair<std::string, std::string>> pairs{
-        {"size", fmt::format("{}x{}", settings.width, settings.height)},
-        {"spp", fmt::format("{}", settings.samples)},
-        {"first-sample", fmt::format("{}", settings.firstSample)},
-        {"seed", fmt::format("{}", e.seed)},
-        {"nee", e.nextEventEstimation ? "on" : "off"},
-        {"mis", std::string(nameOf(e.mis))},
-        {"roulette", std::string(nameOf(e.roulette))},
-        {"roulette-start", fmt::format("{}", e.rouletteStart)},
-        {"max-bounces", fmt::format("{}", e.maxBounces)},
-    };
+    std::vector<std::pair<std::string, std::string>> pairs;
+    const auto add = [&](const char* option, auto value) { pairs.emplace_back(option, fmt::format("{}", value)); };
+    add("size", fmt::format("{}x{}", settings.width, settings.height));
+    add("spp", settings.samples);
+    add("first-sample", settings.firstSample);
+    add("time", settings.seconds);
+    add("target-error", settings.targetError);
+    add("sampler", nameOf(e.sampler));
+    add("hemisphere", nameOf(e.hemisphere));
+    add("nee", e.nextEventEstimation ? "on" : "off");
+    add("light-selection", nameOf(e.lightSelection));
+    add("mis", nameOf(e.mis));
+    add("roulette", nameOf(e.roulette));
+    add("roulette-start", e.rouletteStart);
+    add("roulette-probability", e.rouletteProbability);
+    add("mis-survival", e.misSurvival ? "on" : "off");
+    add("fresnel", nameOf(e.fresnel));
+    add("max-bounces", e.maxBounces);
+    add("clamp-indirect", std::isinf(e.clampIndirect) ? "off" : fmt::format("{}", e.clampIndirect));
+    add("seed", e.seed);
     if (settings.environment)
-        pairs.emplace_back("env", fmt::format("{},{},{}", settings.environment->x, settings.environment->y,
-                                              settings.environment->z));
+        add("env", fmt::format("{},{},{}", settings.environment->x, settings.environment->y, settings.environment->z));
     return pairs;
 }
 

@@ -2,52 +2,68 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
 #include <glm/glm.hpp>
 
 #include "image/image.h"
+#include "light/lights.h"
 #include "shared/frame.h"
 
 namespace lavalight {
 
 // Values are those of the specialisation constants in shaders/shared/frame.h.
+enum class Sampler : uint32_t { sobol = kSamplerSobol, independent = kSamplerIndependent };
+enum class Hemisphere : uint32_t { cosine = kHemisphereCosine, uniform = kHemisphereUniform };
 enum class Mis : uint32_t { power = kMisPower, balance = kMisBalance, off = kMisOff };
-enum class Roulette : uint32_t { throughput = kRouletteThroughput, off = kRouletteOff };
+enum class Roulette : uint32_t {
+    throughput = kRouletteThroughput,
+    off = kRouletteOff,
+    constant = kRouletteConstant,
+    meanAlbedo = kRouletteMeanAlbedo,
+    maxAlbedo = kRouletteMaxAlbedo,
+};
+enum class Fresnel : uint32_t { exact = kFresnelExact, schlick = kFresnelSchlick };
 
 // What the estimator does. Two renders of one scene with equal EstimatorSettings have equal bits.
 struct EstimatorSettings {
-    bool nextEventEstimation = true; // off: light is found only by hitting it
-    Mis mis = Mis::power;            // off, with NEE on: emission found by BSDF rays counts at camera and delta vertices
+    Sampler sampler = Sampler::sobol;
+    Hemisphere hemisphere = Hemisphere::cosine; // how diffuse lobes draw directions
+    bool nextEventEstimation = true;            // off: light is found only by hitting it
+    LightSelection lightSelection = LightSelection::power;
+    Mis mis = Mis::power; // off, with NEE on: emission found by BSDF rays counts at camera and delta vertices
     Roulette roulette = Roulette::throughput;
-    uint32_t rouletteStart = 3; // first vertex where a path may die; the camera's first hit is vertex 1
-    uint32_t maxBounces = 64;   // scattering vertices; 0 shows emission only
+    uint32_t rouletteStart = 3;       // first vertex where a path may die; the camera's first hit is vertex 1
+    float rouletteProbability = 0.5f; // of survival, for Roulette::constant
+    bool misSurvival = false;         // the BSDF pdf of MIS weights is multiplied by the probability of survival
+    Fresnel fresnel = Fresnel::exact; // of glass; opaque layers use Schlick's as glTF prescribes
+    uint32_t maxBounces = 64;         // scattering vertices; 0 shows emission only
+    float clampIndirect = std::numeric_limits<float>::infinity(); // biased: largest channel of an indirect contribution
     uint32_t seed = 0;
 };
 
-// What is rendered, and how the work is cut up. The cutting changes no bit of the image.
+// What is rendered, when to stop, and how the work is cut up. The cutting changes no bit of the image.
 struct RenderSettings {
     EstimatorSettings estimator;
     uint32_t width = 0; // pixels; 0: by the camera's aspect ratio from the height
     uint32_t height = 512;
-    uint32_t samples = 64;       // per pixel
-    uint32_t firstSample = 0;    // samples [firstSample, firstSample + samples)
-    uint32_t waveSize = 65536;   // path slots of a wave
-    uint32_t bandRows = 0;       // rows of a film band; 0: as many as a storage buffer of the device holds
+    uint32_t samples = 64;     // per pixel, at most
+    uint32_t firstSample = 0;  // samples [firstSample, firstSample + samples)
+    double seconds = 0.0;      // stop after this time; 0: no limit
+    double targetError = 0.0;  // stop when the estimated relMSE is below this; 0: no target
+    uint32_t waveSize = 65536; // path slots of a wave
+    uint32_t bandRows = 0;     // rows of a film band; 0: as many as a storage buffer of the device holds
     std::optional<glm::vec3> environment; // constant radiance that replaces the scene's
 };
 
 constexpr uint32_t kMaxBounceLimit = 1024; // counters of every bounce are kept for the whole wave
 
-// Throws UsageError naming the option and its range.
+// Throws UsageError naming the option and its range, or the options that contradict each other.
 void checkSettings(const RenderSettings& settings);
-
-[[nodiscard]] std::string_view nameOf(Mis value);
-[[nodiscard]] std::string_view nameOf(Roulette value);
 
 // Option name (without dashes) and value of everything that decides the image's bits, for the EXR header and report.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> describe(const RenderSettings& settings);

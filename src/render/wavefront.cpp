@@ -19,16 +19,22 @@ std::span<const std::byte> pushed(const WaveRange& range) {
     return std::as_bytes(std::span(&range, 1));
 }
 
-std::array<gpu::SpecialisationConstant, 3> constantsOf(const EstimatorSettings& settings) {
-    return {{{CONSTANT_NEE, settings.nextEventEstimation ? 1u : 0u},
+// For lib/estimator.glsl. Kernels ignore constants that they do not declare.
+std::array<gpu::SpecialisationConstant, 7> constantsOf(const EstimatorSettings& settings) {
+    return {{{CONSTANT_SAMPLER, static_cast<uint32_t>(settings.sampler)},
+             {CONSTANT_HEMISPHERE, static_cast<uint32_t>(settings.hemisphere)},
+             {CONSTANT_NEE, settings.nextEventEstimation ? 1u : 0u},
              {CONSTANT_MIS, static_cast<uint32_t>(settings.mis)},
-             {CONSTANT_ROULETTE, static_cast<uint32_t>(settings.roulette)}}};
+             {CONSTANT_ROULETTE, static_cast<uint32_t>(settings.roulette)},
+             {CONSTANT_MIS_SURVIVAL, settings.misSurvival ? 1u : 0u},
+             {CONSTANT_FRESNEL, static_cast<uint32_t>(settings.fresnel)}}};
 }
 
 } // namespace
 
 Wavefront::Kernels::Kernels(const gpu::Device& device, const EstimatorSettings& settings)
-    : generate(device, kernels::find("generate")), extend(device, kernels::find("extend")),
+    : generate(device, kernels::find("generate"), constantsOf(settings)),
+      extend(device, kernels::find("extend")),
       shade(device, kernels::find("shade"), constantsOf(settings)), prepare(device, kernels::find("prepare")),
       connect(device, kernels::find("connect")), accumulate(device, kernels::find("accumulate")) {}
 

@@ -20,6 +20,8 @@ struct Material {
     float ior = 1.5f;      // from 1, or 0: KHR_materials_ior's special value, which makes F0 1
     float specular = 1.0f; // KHR_materials_specular; 0 makes the dielectric a pure Lambert surface
     glm::vec3 specularColor{1.0f};
+    float transmission = 0.0f; // share of light that enters the surface instead of its base
+    bool isSolid = false;      // a transmissive surface is the boundary of a refracting body; else a thin wall
     bool doubleSided = false;
 };
 
@@ -47,6 +49,19 @@ struct Camera {
     std::optional<float> aspect; // width / height that the file asks for
 };
 
+enum class PunctualKind { point, spot, directional };
+
+// A light without size. Photometric units are taken as radiometric ones, 1 lm = 1 W.
+struct PunctualLight {
+    std::string name;
+    PunctualKind kind = PunctualKind::point;
+    glm::vec3 position{0.0f};
+    glm::vec3 direction{0.0f, 0.0f, -1.0f}; // unit length, the way it shines
+    glm::vec3 intensity{1.0f};              // W/sr; directional: W/m^2
+    float innerConeAngle = 0.0f;            // spot, radians from the axis: full intensity inside
+    float outerConeAngle = 0.7853982f;      // nothing outside
+};
+
 struct Bounds {
     glm::vec3 lower{0.0f};
     glm::vec3 upper{0.0f};
@@ -63,6 +78,7 @@ struct Scene {
     std::vector<Mesh> meshes;
     std::vector<Material> materials; // never empty: meshes without one use a default material
     std::vector<Camera> cameras;     // never empty after import: one that frames the scene stands in
+    std::vector<PunctualLight> punctualLights;
     glm::vec3 environment{0.0f};     // constant radiance from every direction that hits nothing
     Bounds bounds;
     std::vector<std::string> warnings;          // what was not understood, one line each, with names

@@ -1,0 +1,10 @@
+// What sampling a light from a point gives.
+
+struct LightSample {
+    vec3 end;      // of the shadow ray
+    vec3 wi;       // unit, towards the light
+    vec3 radiance; // arriving from wi; of a delta light its irradiance on a plane across wi; 0: it does not shine this way
+    float pdf;     // per solid angle; 1 for a delta light
+    bool isDelta;  // a BSDF ray cannot find it
+    uint triangle; // id that the shadow ray ends on, or kNoTriangle
+};

@@ -1,0 +1,44 @@
+#include "render/setting_names.h"
+
+#include <array>
+
+namespace lavalight {
+namespace {
+
+constexpr std::array<SettingName<Sampler>, 2> kSamplers{
+    {{"sobol", Sampler::sobol}, {"independent", Sampler::independent}}};
+constexpr std::array<SettingName<Hemisphere>, 2> kHemispheres{
+    {{"cosine", Hemisphere::cosine}, {"uniform", Hemisphere::uniform}}};
+constexpr std::array<SettingName<LightSelection>, 2> kLightSelections{
+    {{"power", LightSelection::power}, {"uniform", LightSelection::uniform}}};
+constexpr std::array<SettingName<Mis>, 3> kMisKinds{
+    {{"power", Mis::power}, {"balance", Mis::balance}, {"off", Mis::off}}};
+constexpr std::array<SettingName<Roulette>, 5> kRoulettes{{{"throughput", Roulette::throughput},
+                                                           {"off", Roulette::off},
+                                                           {"constant", Roulette::constant},
+                                                           {"mean-albedo", Roulette::meanAlbedo},
+                                                           {"max-albedo", Roulette::maxAlbedo}}};
+constexpr std::array<SettingName<Fresnel>, 2> kFresnels{{{"exact", Fresnel::exact}, {"schlick", Fresnel::schlick}}};
+
+} // namespace
+
+template <> std::span<const SettingName<Sampler>> settingNames() {
+    return kSamplers;
+}
+template <> std::span<const SettingName<Hemisphere>> settingNames() {
+    return kHemispheres;
+}
+template <> std::span<const SettingName<LightSelection>> settingNames() {
+    return kLightSelections;
+}
+template <> std::span<const SettingName<Mis>> settingNames() {
+    return kMisKinds;
+}
+template <> std::span<const SettingName<Roulette>> settingNames() {
+    return kRoulettes;
+}
+template <> std::span<const SettingName<Fresnel>> settingNames() {
+    return kFresnels;
+}
+
+} // namespace lavalight

@@ -1,0 +1,32 @@
+// The words of the command line for the values of settings.
+#pragma once
+
+#include <algorithm>
+#include <span>
+#include <string_view>
+
+#include "render/settings.h"
+
+namespace lavalight {
+
+template <typename Value> struct SettingName {
+    std::string_view name;
+    Value value;
+};
+
+// All values of a setting with their names, the default first. One specialisation per enumeration.
+template <typename Value> [[nodiscard]] std::span<const SettingName<Value>> settingNames();
+
+template <> std::span<const SettingName<Sampler>> settingNames();
+template <> std::span<const SettingName<Hemisphere>> settingNames();
+template <> std::span<const SettingName<LightSelection>> settingNames();
+template <> std::span<const SettingName<Mis>> settingNames();
+template <> std::span<const SettingName<Roulette>> settingNames();
+template <> std::span<const SettingName<Fresnel>> settingNames();
+
+template <typename Value> [[nodiscard]] std::string_view nameOf(Value value) {
+    const auto names = settingNames<Value>();
+    return std::find_if(names.begin(), names.end(), [&](const auto& n) { return n.value == value; })->name;
+}
+
+} // namespace lavalight
