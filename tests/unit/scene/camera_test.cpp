@@ -1,4 +1,5 @@
 // Tests of cameras from files and of the camera that frames a scene.
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>

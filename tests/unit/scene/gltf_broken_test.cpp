@@ -62,6 +62,16 @@ TEST(BrokenGltf, EveryFlippedByteOfAGlbLoadsOrIsOneLine) {
     }
 }
 
+TEST(BrokenGltf, ChunkThatAnnouncesMoreThanTheFileHoldsIsAnError) {
+    const std::string whole = goodFile().glb();
+    const size_t binaryLength = whole.find("BIN") - 4; // where the BIN chunk keeps its length
+    for (const size_t excess : {size_t{4}, size_t{0xFFFFFFFF} - 44}) {
+        std::string damaged = whole;
+        damaged.replace(binaryLength, 4, fourBytes(44 + excess)); // it has 44 bytes
+        expectError(importError(damaged), "test.glb", "a chunk announces");
+    }
+}
+
 TEST(BrokenGltf, FilesThatAreNoGltfSaySo) {
     expectError(importError("Dear reader, this is a letter."), "test.glb", "neither a .glb nor the JSON");
     expectError(importError(""), "test.glb", "empty");

@@ -1,4 +1,6 @@
 // Tests of materials, of the extensions and of what stands in for missing light.
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "unit/scene/gltf_builder.h"
