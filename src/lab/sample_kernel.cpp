@@ -1,0 +1,78 @@
+#include "lab/sample_kernel.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cstddef>
+
+#include "gpu/buffer.h"
+#include "gpu/commands.h"
+#include "kernels.h"
+#include "shared/frame.h"
+
+namespace lavalight {
+namespace {
+
+// The layouts of both languages: push constants by std430, LabMoments as three words.
+static_assert(sizeof(LabRun) == 64 && offsetof(LabRun, a) == 32 && sizeof(LabMoments) == 12);
+
+constexpr uint32_t kGroupSize = 64;
+constexpr uint32_t kSamplesEach = 256; // of an invocation of a plain estimate
+// Fewer for sequences: sums of so few floats are good to 1e-7, below the errors of Sobol's points.
+constexpr uint32_t kSequenceSamplesEach = 64;
+
+gpu::Kernel makeKernel(const gpu::Device& device, std::string_view name, Sampler sampler) {
+    const std::array<gpu::SpecialisationConstant, 1> constants{{{CONSTANT_SAMPLER, static_cast<uint32_t>(sampler)}}};
+    return {device, kernels::find(name), constants};
+}
+
+Moments fromDevice(const LabMoments& m) {
+    return {m.mean, m.squares, m.count};
+}
+
+} // namespace
+
+SampleKernel::SampleKernel(gpu::Device& device, std::string_view name, Sampler sampler)
+    : device_(&device), kernel_(makeKernel(device, name, sampler)) {}
+
+Moments SampleKernel::estimate(LabRun run, uint64_t samples, std::span<const float> table) const {
+    assert(samples > 0 && samples <= kMostLabSamples);
+    run.sampleCount = static_cast<uint32_t>(samples);
+    run.samplesEach = kSamplesEach;
+    run.blocks = 1;
+    return merged(dispatch(run, table));
+}
+
+std::vector<Moments> SampleKernel::streams(LabRun run, uint32_t streams, uint32_t samplesPerStream) const {
+    assert(uint64_t{streams} * samplesPerStream <= kMostLabSamples);
+    run.samplesEach = std::min(kSequenceSamplesEach, samplesPerStream);
+    run.blocks = samplesPerStream / run.samplesEach;
+    run.sampleCount = streams * samplesPerStream;
+    assert(run.blocks * run.samplesEach == samplesPerStream);
+    const std::vector<Moments> parts = dispatch(run, {});
+    std::vector<Moments> result;
+    for (size_t i = 0; i < parts.size(); i += run.blocks)
+        result.push_back(merged(std::span(parts).subspan(i, run.blocks)));
+    return result;
+}
+
+std::vector<Moments> SampleKernel::dispatch(const LabRun& run, std::span<const float> table) const {
+    const uint32_t invocations = (run.sampleCount - 1) / run.samplesEach + 1;
+    const gpu::Buffer out(*device_, "lab results", uint64_t{invocations} * sizeof(LabMoments), gpu::BufferUse::storage);
+    gpu::Buffer input(*device_, "lab table", table.size_bytes(), gpu::BufferUse::storage);
+    input.upload(table);
+    gpu::ResourceTable resources;
+    resources.set("LabOut", out);
+    resources.set("LabTable", input);
+    const gpu::BoundKernel bound(*device_, kernel_, resources);
+    gpu::Commands commands(*device_);
+    commands.begin();
+    commands.dispatch(bound, (invocations - 1) / kGroupSize + 1, std::as_bytes(std::span(&run, 1)));
+    commands.submitAndWait();
+    const std::vector<LabMoments> parts = out.downloadAll<LabMoments>();
+    std::vector<Moments> result(parts.size());
+    std::transform(parts.begin(), parts.end(), result.begin(), fromDevice);
+    return result;
+}
+
+} // namespace lavalight

@@ -1,0 +1,56 @@
+// The tables that experiments print: for people, for spreadsheets, for programs.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+namespace lavalight {
+
+// Nothing: the figure has no meaning in this row.
+using Cell = std::variant<std::monostate, std::string, uint64_t, double>;
+
+struct Column {
+    std::string key;     // in JSON and CSV
+    std::string heading; // for people
+};
+
+// Each row has as many cells as there are columns.
+struct Table {
+    std::string name;  // one word
+    std::string title; // what is estimated
+    std::vector<Column> columns;
+    std::vector<std::vector<Cell>> rows;
+    std::vector<std::string> notes; // what the rows show
+};
+
+[[nodiscard]] std::string tableText(const Table& table);
+// {"name", "title", "columns": [{"key", "heading"}], "rows": [{key: value}], "notes"}; a cell without value is null.
+[[nodiscard]] nlohmann::ordered_json tableJson(const Table& table);
+// All tables as one (RFC 4180): a first column `table`, then every key that any of them has. Notes are left out.
+[[nodiscard]] std::string tablesCsv(std::span<const Table> tables);
+
+// A row of the kind that nearly every table has.
+struct EstimatorRow {
+    std::string estimator;
+    uint64_t samples = 0;
+    double estimate = 0.0;
+    std::optional<double> exact;
+    double standardError = 0.0;
+    double variance = 0.0;              // of one sample
+    std::optional<double> theory;       // that variance, by formula
+    double cost = 1.0;                  // of one sample; the ratio compares at equal cost
+    std::vector<Cell> more;             // what this table has besides
+};
+
+// Columns estimator, samples, estimate, exact, standard error, variance, theory (where any row has one), ratio, and
+// `more`. The first row is the naive one: the ratio is (variance * cost) over that of the first row.
+[[nodiscard]] Table estimatorTable(std::string name, std::string title, const std::vector<EstimatorRow>& rows,
+                                   const std::vector<Column>& more = {});
+
+} // namespace lavalight
