@@ -4,10 +4,12 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <ranges>
 #include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "base/error.h"
 
@@ -59,8 +61,16 @@ glm::vec3 parseEnvironment(const std::string& text) {
     return radiance;
 }
 
+// Takes one of the names, whatever their case, and hands on the value's number, which is what the parser stores.
 template <typename Value> CLI::Validator oneOf(const std::map<std::string, Value>& values) {
-    return CLI::CheckedTransformer(values, CLI::ignore_case).description("");
+    const auto replaceName = [values](std::string& text) -> std::string {
+        const auto found = values.find(CLI::detail::to_lower(text));
+        if (found == values.end())
+            return fmt::format("{} not in {{{}}}", text, fmt::join(std::views::keys(values), ","));
+        text = std::to_string(static_cast<uint32_t>(found->second));
+        return {};
+    };
+    return {replaceName, ""};
 }
 
 } // namespace
