@@ -12,6 +12,15 @@ vec3 hitPointError(vec3 b, vec3 v0, vec3 v1, vec3 v2) {
     return kHitPointGamma * (abs(b.x * v0) + abs(b.y * v1) + abs(b.z * v2));
 }
 
+// Barycentrics with the point kept off the triangle's edges by the error of interpolating it (half of the bound above).
+// Nearer to an edge it may come to lie on or beyond the neighbouring triangle, and rays from there leak: of a cube at ten
+// thousand times its size from the origin, one in ten thousand. twiceArea: of the triangle.
+vec3 keepOffEdges(vec3 b, vec3 error, float longestEdge, float twiceArea) {
+    const float least = min(0.5 * length(error) * longestEdge / twiceArea, 1.0 / 3.0);
+    const vec3 kept = max(b, vec3(least));
+    return kept / (kept.x + kept.y + kept.z);
+}
+
 // The next float away from zero in the direction of `sign`, so that adding the offset cannot round back.
 float nextFloat(float x, float sign) {
     if (sign == 0.0 || x == 0.0)

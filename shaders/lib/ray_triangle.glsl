@@ -67,6 +67,8 @@ bool intersectTriangle(ShearedRay ray, vec3 v0, vec3 v1, vec3 v2, float tMax, ou
     float largest = max(max(edges.x, edges.y), edges.z);
     float determinant = edges.x + edges.y + edges.z;
     vec3 weights = edges / determinant;
+    // Precise to a few 1e-7 of t, on slivers to 1e-4. The quotient that the plane gives is better there, but only with the
+    // normal from the two shorter edges, and finding those measured 12 % of all rays' time.
     hit.t = dot(weights, vec3(a.z, b.z, c.z));
     hit.barycentrics = weights.yz;
     hit.front = (determinant > 0.0) == (ray.shear.z > 0.0);

@@ -33,12 +33,16 @@ vec3 shadingNormal(LeafTriangle triangle, vec3 b, vec3 ng) {
 // wo: unit vector from the hit back along the ray.
 Interaction makeInteraction(Hit hit, vec3 wo) {
     const LeafTriangle triangle = loadLeafTriangle(hit.leafTriangle);
-    const vec3 b = vec3(1.0 - hit.barycentrics.x - hit.barycentrics.y, hit.barycentrics);
-    const vec3 normal = cross(triangle.v1 - triangle.v0, triangle.v2 - triangle.v0);
+    const vec3 e1 = triangle.v1 - triangle.v0;
+    const vec3 e2 = triangle.v2 - triangle.v0;
+    const vec3 normal = cross(e1, e2);
     const float twiceArea = length(normal);
+    const float longestEdge = sqrt(max(dot(e1, e1), max(dot(e2, e2), dot(e2 - e1, e2 - e1))));
+    vec3 b = vec3(1.0 - hit.barycentrics.x - hit.barycentrics.y, hit.barycentrics);
     Interaction i;
-    i.p = b.x * triangle.v0 + b.y * triangle.v1 + b.z * triangle.v2;
     i.pError = hitPointError(b, triangle.v0, triangle.v1, triangle.v2);
+    b = keepOffEdges(b, i.pError, longestEdge, twiceArea);
+    i.p = b.x * triangle.v0 + b.y * triangle.v1 + b.z * triangle.v2;
     i.ng = normal / twiceArea;
     i.area = 0.5 * twiceArea;
     i.isFront = dot(i.ng, wo) > 0.0;

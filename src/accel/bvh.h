@@ -13,7 +13,7 @@ namespace lavalight {
 
 struct BvhConfig {
     float triangleCost = 0.3f; // of a triangle's test relative to that of a node's four boxes
-    float splitBudget = 0.25f; // spatial splits may add this share of triangle references
+    float splitBudget = 0.25f; // splitting large triangles may add this share of references
     uint32_t threads = 0;      // 0: as many as there are cores; the tree does not depend on it
 };
 
@@ -25,9 +25,9 @@ struct Bvh {
     double buildSeconds = 0.0;
 };
 
-// Builds with spatial splits and surface areas. Any number of triangles is fine, none and degenerate ones
-// too: those never hit. Throws Error for a coordinate that is not finite or beyond kMaxCoordinate, and for
-// scenes beyond requireBvhFits.
+// Builds by surface areas over triangles of which large ones have been split. Any number of triangles is
+// fine, none and degenerate ones too: those never hit. Throws Error for a coordinate that is not finite or
+// beyond kMaxCoordinate, and for scenes beyond requireBvhFits.
 [[nodiscard]] Bvh buildBvh(std::span<const Triangle> triangles, const BvhConfig& config = {});
 
 // Throws Error, naming the figure, unless that many leaf triangles and nodes fit into texel buffers of

@@ -1,4 +1,4 @@
-// Builds the binary tree with Embree, spatial splits included, and hands it to the flattening.
+// Splits large triangles, builds the binary tree with Embree, and hands it to the flattening.
 #include "accel/bvh.h"
 
 #include <cassert>
@@ -9,7 +9,7 @@
 
 #include "accel/build_tree.h"
 #include "accel/embree_handles.h"
-#include "accel/triangle_split.h"
+#include "accel/presplit.h"
 #include "base/error.h"
 #include "base/log.h"
 
@@ -22,51 +22,11 @@ namespace {
 constexpr uint32_t kMaxBinaryDepth = 40;
 static_assert(3 * (kMaxBinaryDepth / 2) <= kTraversalStackSize);
 
-// What Embree's callbacks know. Embree sees the scene scaled by a power of two to coordinates below 1, which
-// is exact and keeps its areas and costs finite and normal at any scale of the scene.
+// What Embree's callbacks know.
 struct BuildContext {
-    std::vector<Triangle> scaled;
-    double scale = 1.0;
+    std::span<const Fragment> fragments;
     float triangleCost = 0.0f;
 };
-
-// The nearest float that is not above `value`.
-float roundDown(double value) {
-    const auto nearest = static_cast<float>(value);
-    return nearest > value ? std::nextafter(nearest, -std::numeric_limits<float>::infinity()) : nearest;
-}
-
-// Back to the scene's scale, rounded outward.
-BuildBox unscaled(const BuildBox& box, double scale) {
-    BuildBox result;
-    for (int i = 0; i < 3; ++i) {
-        result.lower[i] = roundDown(box.lower[i] / scale);
-        result.upper[i] = -roundDown(-box.upper[i] / scale);
-    }
-    return result;
-}
-
-RTCBuildPrimitive toPrimitive(const Triangle& scaled, uint32_t id) {
-    // Room for numbers that leave the normal range by scaling, which Embree may take for 0.
-    constexpr float kPad = 4.0f * std::numeric_limits<float>::min();
-    const BuildBox box = triangleBox(scaled);
-    const glm::vec3 lower = box.lower - kPad;
-    const glm::vec3 upper = box.upper + kPad;
-    return {lower.x, lower.y, lower.z, 0, upper.x, upper.y, upper.z, id};
-}
-
-BuildBox primitiveBox(const RTCBuildPrimitive& p) {
-    return {{p.lower_x, p.lower_y, p.lower_z}, {p.upper_x, p.upper_y, p.upper_z}};
-}
-
-void storeBox(const BuildBox& box, RTCBounds& out) {
-    out.lower_x = box.lower.x;
-    out.lower_y = box.lower.y;
-    out.lower_z = box.lower.z;
-    out.upper_x = box.upper.x;
-    out.upper_y = box.upper.y;
-    out.upper_z = box.upper.z;
-}
 
 void* createNode(RTCThreadLocalAllocator allocator, unsigned, void*) {
     return new (rtcThreadLocalAlloc(allocator, sizeof(BuildNode), 16)) BuildNode;
@@ -84,18 +44,9 @@ void* createLeaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* pri
     assert(count == 1);
     const auto& context = *static_cast<const BuildContext*>(user);
     auto* leaf = new (rtcThreadLocalAlloc(allocator, sizeof(BuildNode), 16)) BuildNode;
-    makeReference(*leaf, primitive->primID, unscaled(primitiveBox(*primitive), context.scale),
-                  context.triangleCost);
+    const Fragment& fragment = context.fragments[primitive->primID];
+    makeReference(*leaf, fragment.triangle, fragment.box, context.triangleCost);
     return leaf;
-}
-
-void splitPrimitive(const RTCBuildPrimitive* primitive, unsigned axis, float position, RTCBounds* left,
-                    RTCBounds* right, void* user) {
-    const auto& context = *static_cast<const BuildContext*>(user);
-    const SplitBoxes boxes = splitTriangle(context.scaled[primitive->primID], primitiveBox(*primitive),
-                                           static_cast<int>(axis), position);
-    storeBox(boxes.left, *left);
-    storeBox(boxes.right, *right);
 }
 
 // Throws Error for a coordinate out of range.
@@ -115,40 +66,38 @@ Bounds boundsOf(std::span<const Triangle> triangles) {
     return triangles.empty() ? Bounds{} : Bounds{box.lower, box.upper};
 }
 
-BuildContext makeContext(std::span<const Triangle> triangles, const Bounds& bounds, float triangleCost) {
+// Embree sees the scene scaled by a power of two to coordinates below 1, which keeps its areas and costs
+// finite and normal at any scale of the scene.
+std::vector<RTCBuildPrimitive> toPrimitives(std::span<const Fragment> fragments, const Bounds& bounds) {
     const glm::vec3 reach = glm::max(glm::abs(bounds.lower), glm::abs(bounds.upper));
     const float largest = glm::max(glm::max(reach.x, reach.y), reach.z);
-    BuildContext context{{}, largest > 0.0f ? std::ldexp(1.0, -1 - std::ilogb(largest)) : 1.0, triangleCost};
-    const auto scaled = [&](const glm::vec3& v) { return glm::vec3(context.scale * glm::dvec3(v)); };
-    context.scaled.reserve(triangles.size());
-    for (const Triangle& t : triangles)
-        context.scaled.push_back({scaled(t.v0), scaled(t.v1), scaled(t.v2)});
-    return context;
+    const double scale = largest > 0.0f ? std::ldexp(1.0, -1 - std::ilogb(largest)) : 1.0;
+    std::vector<RTCBuildPrimitive> primitives;
+    primitives.reserve(fragments.size());
+    for (uint32_t id = 0; id < fragments.size(); ++id) {
+        const glm::vec3 lower(scale * glm::dvec3(fragments[id].box.lower));
+        const glm::vec3 upper(scale * glm::dvec3(fragments[id].box.upper));
+        primitives.push_back({lower.x, lower.y, lower.z, 0, upper.x, upper.y, upper.z, id});
+    }
+    return primitives;
 }
 
 // The tree lives as long as `bvh`. Null where Embree cannot keep to kMaxBinaryDepth.
-const BuildNode* buildEmbreeTree(BuildContext& context, const BvhConfig& config, RTCBVH bvh) {
-    const size_t count = context.scaled.size();
-    const size_t room = size_t{kMaxTexels / kLeafTriangleTexels};
-    const auto wanted = static_cast<size_t>(static_cast<double>(count) * (1.0 + config.splitBudget));
-    std::vector<RTCBuildPrimitive> primitives(std::min(wanted, room));
-    for (size_t id = 0; id < count; ++id)
-        primitives[id] = toPrimitive(context.scaled[id], static_cast<uint32_t>(id));
-
+const BuildNode* buildEmbreeTree(BuildContext& context, const Bounds& bounds, RTCBVH bvh) {
+    std::vector<RTCBuildPrimitive> primitives = toPrimitives(context.fragments, bounds);
     RTCBuildArguments arguments = rtcDefaultBuildArguments();
-    arguments.buildQuality = RTC_BUILD_QUALITY_HIGH;
+    arguments.buildQuality = RTC_BUILD_QUALITY_MEDIUM; // its best without splits, which presplit() has made
     arguments.maxBranchingFactor = 2;
     arguments.maxDepth = kMaxBinaryDepth;
     arguments.maxLeafSize = 1;
     arguments.bvh = bvh;
     arguments.primitives = primitives.data();
-    arguments.primitiveCount = count;
+    arguments.primitiveCount = primitives.size();
     arguments.primitiveArrayCapacity = primitives.size();
     arguments.createNode = createNode;
     arguments.setNodeChildren = setChildren;
     arguments.setNodeBounds = setBounds;
     arguments.createLeaf = createLeaf;
-    arguments.splitPrimitive = splitPrimitive;
     arguments.userPtr = &context;
     return static_cast<const BuildNode*>(rtcBuildBVH(&arguments));
 }
@@ -158,8 +107,10 @@ Bvh buildNonEmpty(std::span<const Triangle> triangles, const Bounds& bounds, con
     const EmbreeBvh arena(device ? rtcNewBVH(device.get()) : nullptr);
     if (!arena)
         throw Error("cannot build the BVH: Embree does not start (out of memory?)");
-    BuildContext context = makeContext(triangles, bounds, config.triangleCost);
-    if (const BuildNode* root = buildEmbreeTree(context, config, arena.get()))
+    const std::vector<Fragment> fragments = presplit(triangles, bounds, config.splitBudget);
+    requireBvhFits(fragments.size(), 0);
+    BuildContext context{fragments, config.triangleCost};
+    if (const BuildNode* root = buildEmbreeTree(context, bounds, arena.get()))
         return flattenTree(root);
     if (rtcGetDeviceError(device.get()) == RTC_ERROR_OUT_OF_MEMORY)
         throw Error(fmt::format("cannot build the BVH of {} triangles: out of memory", triangles.size()));

@@ -1,6 +1,9 @@
 #include "app/render_command.h"
 
+#include <algorithm>
+#include <array>
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -98,9 +101,16 @@ RenderCommand::RenderCommand(CLI::App& app)
 }
 
 void RenderCommand::requireOutputs() const {
-    for (const std::string& file : {exr_, png_, report_})
-        if (!file.empty())
-            requireWritable(file);
+    if (!std::isfinite(exposure_))
+        throw UsageError(fmt::format("--exposure: {} is no number of stops", exposure_));
+    const std::array<std::string, 3> files{exr_, png_, report_};
+    for (auto file = files.begin(); file != files.end(); ++file) {
+        if (file->empty())
+            continue;
+        if (std::find(files.begin(), file, *file) != file)
+            throw UsageError(fmt::format("{} cannot hold two outputs: give each a file of its own", *file));
+        requireWritable(*file);
+    }
 }
 
 int RenderCommand::run() {

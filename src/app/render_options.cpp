@@ -5,10 +5,12 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <ranges>
 #include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "base/error.h"
 #include "render/presets.h"
@@ -62,6 +64,18 @@ glm::vec3 parseEnvironment(const std::string& text) {
     return radiance;
 }
 
+// Takes one of the names, whatever their case, and hands on the value's number, which is what the parser stores.
+template <typename Value> CLI::Validator oneOf(const std::map<std::string, Value>& values) {
+    const auto replaceName = [values](std::string& text) -> std::string {
+        const auto found = values.find(CLI::detail::to_lower(text));
+        if (found == values.end())
+            return fmt::format("{} not in {{{}}}", text, fmt::join(std::views::keys(values), ","));
+        text = std::to_string(static_cast<uint32_t>(found->second));
+        return {};
+    };
+    return {replaceName, ""};
+}
+
 // An option for a setting with named values; its help and its errors list the names.
 template <typename Value>
 void addNamed(CLI::App& parser, const std::string& option, Value& value, const std::string& help) {
@@ -73,7 +87,7 @@ void addNamed(CLI::App& parser, const std::string& option, Value& value, const s
     }
     parser.add_option(option, value, help)
         ->type_name(names)
-        ->transform(CLI::CheckedTransformer(values, CLI::ignore_case).description(""))
+        ->transform(oneOf(values))
         ->default_str(std::string(nameOf(value)));
 }
 
@@ -81,7 +95,7 @@ void addSwitch(CLI::App& parser, const std::string& option, bool& value, const s
     const std::map<std::string, bool> values{{"on", true}, {"off", false}};
     parser.add_option(option, value, help)
         ->type_name("on|off")
-        ->transform(CLI::CheckedTransformer(values, CLI::ignore_case).description(""))
+        ->transform(oneOf(values))
         ->default_str(value ? "on" : "off");
 }
 
@@ -154,7 +168,7 @@ void RenderOptions::declareDevice(CLI::App& parser) {
         {"any", gpu::RequiredDevice::any}, {"cpu", gpu::RequiredDevice::cpu}, {"gpu", gpu::RequiredDevice::gpu}};
     parser.add_option("--require-device", device_.required, "Refuse to run on another kind of device")
         ->type_name("any|cpu|gpu")
-        ->transform(CLI::CheckedTransformer(kinds, CLI::ignore_case).description(""))
+        ->transform(oneOf(kinds))
         ->default_str("any");
     parser.add_flag("--validate", device_.validate, "Run the Vulkan validation layer; any message fails the render");
     parser.add_option("--wave-size", settings_.waveSize, "Paths in flight; changes no bit of the image")->type_name("N");

@@ -7,13 +7,13 @@
 
 namespace lavalight {
 
-// One bin, laid out for kernels. With a 32-bit random r and a uniform u in [0, 1) that is a multiple of
-// 2^-24, the pick among n bins is
-//     bin = (uint64(r) * n) >> 32;   pick = u < entry[bin].probability ? bin : entry[bin].alias
+// One bin, laid out for kernels. With a 32-bit random r, the pick among n bins is
+//     product = uint64(r) * n;   bin = product >> 32;   u = (low 32 bits of product >> 8) * 2^-24
+//     pick = u < entry[bin].probability ? bin : entry[bin].alias
 // and entry[pick].pmf is its probability.
 struct AliasEntry {
-    float probability =
-        0.0f; // of staying in this bin: a multiple of 2^-24, so that u < probability has exactly it
+    // Of staying in this bin: a multiple of 2^-24, so that u < probability has exactly it.
+    float probability = 0.0f;
     uint32_t alias = 0;
     float pmf = 0.0f; // of this entry being picked
 };
@@ -22,8 +22,8 @@ static_assert(sizeof(AliasEntry) == 12);
 // One entry per weight; empty when no weight is positive. An entry of weight 0 is never picked, one of
 // positive weight always can be. pmf is what the table does, not what was asked for: the two differ by at
 // most 2^-24 (1 + donors) / n, donors being the bins that alias to the entry; the sum of all differences is
-// below 2^-23. What r adds, bins uneven by a relative n / 2^32, is not in pmf. Throws Error for negative or
-// infinite weights or sums, or more than 2^24 weights.
+// below 2^-23. What the finite number of values of r adds, (1 + donors) / 2^32 at most, is not in pmf. Throws
+// Error for negative or infinite weights or sums, or more than 2^24 weights.
 [[nodiscard]] std::vector<AliasEntry> buildAliasTable(std::span<const double> weights);
 
 } // namespace lavalight

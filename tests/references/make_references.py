@@ -2,14 +2,16 @@
 """Renders the reference images of this folder with Mitsuba 3; README.md says how to run it.
 
     python3 -m venv venv && venv/bin/pip install mitsuba OpenEXR numpy
-    venv/bin/python tests/references/make_references.py
+    venv/bin/python tests/references/make_references.py [NAME...]
 """
 import argparse
+import dataclasses
 import sys
 import tempfile
 import time
 from pathlib import Path
 
+import drjit as dr
 import mitsuba as mi
 import numpy as np
 import OpenEXR
@@ -22,6 +24,24 @@ import gltf_to_mitsuba  # noqa: E402
 
 MAX_BOUNCES = 64  # scattering vertices, Lavalight's --max-bounces; Mitsuba's max_depth counts one more
 ROULETTE_DEPTH = 8
+
+
+@dataclasses.dataclass
+class Reference:
+    """How an image is made; `spp` counts the samples a pixel of each pass."""
+    size: tuple = (128, 128)
+    passes: int = 256
+    spp: int = 128
+    environment: tuple = None
+
+
+# The images of this folder by their scenes in assets/.
+REFERENCES = {
+    "cornell-box": Reference(),
+    "cornell-glass": Reference(spp=64),
+    "veach-mis": Reference(size=(128, 96)),
+    "many-lights": Reference(spp=32),
+}
 
 
 def render_passes(scene, passes, spp):
@@ -52,9 +72,10 @@ def write_exr(path, mean, variance, samples, notes):
     OpenEXR.File(header, channels).write(str(path))
 
 
-def make(source, target, size, passes, spp):
+def make(source, target, reference):
+    size, passes, spp = reference.size, reference.passes, reference.spp
     with tempfile.TemporaryDirectory() as folder:
-        description = gltf_to_mitsuba.load(mi, source, size, folder)
+        description = gltf_to_mitsuba.load(mi, source, size, folder, reference.environment)
         description["integrator"] = {"type": "path", "max_depth": MAX_BOUNCES + 1, "rr_depth": ROULETTE_DEPTH}
         scene = mi.load_dict(description)
     start = time.process_time()
@@ -69,16 +90,33 @@ def make(source, target, size, passes, spp):
 
 
 def main():
-    parser = argparse.ArgumentParser(description="Renders a reference image with Mitsuba 3.")
-    parser.add_argument("--scene", default=ROOT / "assets/cornell-box.gltf", help="Lambert-only glTF file")
-    parser.add_argument("--output", default=FOLDER / "cornell-box.exr")
-    parser.add_argument("--size", type=int, nargs=2, default=(128, 128), metavar=("WIDTH", "HEIGHT"))
-    parser.add_argument("--passes", type=int, default=256)
-    parser.add_argument("--spp", type=int, default=128, help="samples a pixel and pass")
+    parser = argparse.ArgumentParser(description="Renders reference images with Mitsuba 3.")
+    parser.add_argument("names", nargs="*", metavar="NAME",
+                        help=f"images of this folder (default: all): {', '.join(REFERENCES)}")
+    parser.add_argument("--scene", help="another glTF file instead; needs --output")
+    parser.add_argument("--output")
+    parser.add_argument("--size", type=int, nargs=2, metavar=("WIDTH", "HEIGHT"))
+    parser.add_argument("--passes", type=int)
+    parser.add_argument("--spp", type=int, help="samples a pixel and pass")
+    parser.add_argument("--environment", type=float, nargs=3, metavar=("R", "G", "B"))
+    parser.add_argument("--threads", type=int, help="default: one a processor")
     parser.add_argument("--variant", default="llvm_ad_rgb", help="scalar_rgb needs no LLVM but far more time")
     options = parser.parse_args()
+    if bool(options.scene) != bool(options.output) or (options.scene and options.names):
+        parser.error("--scene and --output belong together, without NAME")
+    if unknown := set(options.names) - set(REFERENCES):
+        parser.error(f"no such image: {', '.join(sorted(unknown))}")
     mi.set_variant(options.variant)
-    make(options.scene, options.output, tuple(options.size), options.passes, options.spp)
+    if options.threads:
+        dr.set_thread_count(options.threads)
+    given = {field: value for field in ("size", "passes", "spp", "environment")
+             if (value := getattr(options, field)) is not None}
+    if options.scene:
+        make(options.scene, options.output, Reference(**given))
+        return
+    for name in options.names or REFERENCES:
+        make(ROOT / f"assets/{name}.gltf", FOLDER / f"{name}.exr",
+             dataclasses.replace(REFERENCES[name], **given))
 
 
 if __name__ == "__main__":

@@ -12,12 +12,13 @@ struct ChiSquare {
     double pValue = 1.0;  // probability of a statistic at least as large if the probabilities hold
 };
 
-// Below this a test fails. Seeds are fixed, so a test that passes once passes always; over the few hundred tests of this
-// suite, one in ten thousand leaves a few per cent that a correct sampler has to be given another seed.
+// Below this a test fails. Seeds are fixed, so a test that passes once passes always; over the few hundred
+// tests of this suite, one in ten thousand leaves a few per cent that a correct sampler has to be given
+// another seed.
 constexpr double kLeastPValue = 1e-4;
 
-// `expected` counts per bin, of the same sum as `observed` up to rounding. Bins that expect fewer than five are pooled:
-// the statistic's distribution is that of chi-square only for larger ones.
+// `expected` counts per bin, of the same sum as `observed` up to rounding. Bins that expect fewer than five
+// are pooled: the statistic's distribution is that of chi-square only for larger ones.
 [[nodiscard]] ChiSquare chiSquare(const std::vector<uint32_t>& observed, const std::vector<double>& expected);
 
 // The same for bins of equal probability.

@@ -1,0 +1,16 @@
+// What the kernels that trace given rays (trace_closest, trace_any) answer.
+#ifndef LAVALIGHT_SHARED_TRACE_H
+#define LAVALIGHT_SHARED_TRACE_H
+
+#include "shared/types.h"
+
+LAVALIGHT_SHARED_BEGIN
+
+struct TracedHit {
+    float t;       // infinite: nothing was hit
+    uint triangle; // id; kNoTriangle: nothing was hit
+};
+
+LAVALIGHT_SHARED_END
+
+#endif

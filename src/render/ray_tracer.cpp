@@ -1,0 +1,55 @@
+#include "render/ray_tracer.h"
+
+#include <algorithm>
+#include <cassert>
+
+#include "gpu/buffer.h"
+#include "kernels.h"
+
+namespace lavalight {
+
+RayTracer::RayTracer(gpu::Device& device, const GpuScene& scene)
+    : device_(&device), scene_(&scene), closest_(device, kernels::find("trace_closest")),
+      any_(device, kernels::find("trace_any")) {}
+
+size_t RayTracer::maxRays() const {
+    return std::min<size_t>(size_t{device_->limits().maxGroups} * kWorkgroupSize,
+                            device_->limits().maxStorageBufferBytes / sizeof(ShadowRay));
+}
+
+std::vector<TracedHit> RayTracer::closest(std::span<const Ray> rays) {
+    gpu::Buffer in(*device_, "rays", rays.size_bytes(), gpu::BufferUse::storage);
+    const gpu::Buffer out(*device_, "hits", rays.size() * sizeof(TracedHit), gpu::BufferUse::storage);
+    in.upload(rays);
+    gpu::ResourceTable resources;
+    scene_->addTo(resources);
+    resources.set("Rays", in);
+    resources.set("TracedHits", out);
+    run(closest_, resources, rays.size());
+    return out.downloadAll<TracedHit>();
+}
+
+std::vector<uint32_t> RayTracer::occluded(std::span<const ShadowRay> rays) {
+    gpu::Buffer in(*device_, "shadow rays", rays.size_bytes(), gpu::BufferUse::storage);
+    const gpu::Buffer out(*device_, "shadow flags", rays.size() * sizeof(uint32_t), gpu::BufferUse::storage);
+    in.upload(rays);
+    gpu::ResourceTable resources;
+    scene_->addTo(resources);
+    resources.set("ShadowRays", in);
+    resources.set("Occluded", out);
+    run(any_, resources, rays.size());
+    return out.downloadAll<uint32_t>();
+}
+
+void RayTracer::run(const gpu::Kernel& kernel, const gpu::ResourceTable& resources, size_t rays) {
+    assert(rays <= maxRays());
+    const gpu::BoundKernel bound(*device_, kernel, resources);
+    gpu::Commands commands(*device_);
+    commands.begin();
+    commands.dispatch(bound, static_cast<uint32_t>((rays + kWorkgroupSize - 1) / kWorkgroupSize));
+    commands.submitAndWait();
+    const auto time = commands.times().find(kernel.name());
+    lastSeconds_ = time == commands.times().end() ? 0.0 : time->second.seconds;
+}
+
+} // namespace lavalight

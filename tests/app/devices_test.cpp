@@ -1,0 +1,73 @@
+// `lavalight devices`: what it lists, and what a machine without Vulkan is told.
+#include <algorithm>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "support/environment_variable.h"
+#include "support/run_program.h"
+#include "support/temporary_folder.h"
+
+namespace lavalight {
+namespace {
+
+using nlohmann::json;
+using test::EnvironmentVariable;
+using test::ProgramResult;
+using test::runLavalight;
+using test::TemporaryFolder;
+
+class Devices : public testing::Test {
+  protected:
+    [[nodiscard]] ProgramResult run(const std::vector<std::string>& arguments) const {
+        return runLavalight(arguments, folder_.path());
+    }
+
+    const TemporaryFolder folder_;
+};
+
+TEST_F(Devices, JsonHasEveryFieldOfEveryDevice) {
+    const ProgramResult result = run({"devices", "--json"});
+    ASSERT_EQ(result.exitCode, 0) << result.err;
+    EXPECT_EQ(result.err, "");
+    const json devices = json::parse(result.out);
+    ASSERT_GE(devices.size(), 1u);
+    for (size_t i = 0; i < devices.size(); ++i) {
+        EXPECT_EQ(devices[i].at("index"), i);
+        for (const char* key : {"name", "driver", "type", "api"})
+            EXPECT_FALSE(devices[i].at(key).get<std::string>().empty()) << key;
+        EXPECT_TRUE(devices[i].at("refusals").is_array());
+    }
+    EXPECT_TRUE(std::any_of(devices.begin(), devices.end(),
+                            [](const json& device) { return device.at("refusals").empty(); }));
+}
+
+TEST_F(Devices, TextHasALinePerDeviceThatSaysWhetherItCanRender) {
+    const json devices = json::parse(run({"devices", "--json"}).out);
+    const ProgramResult result = run({"devices"});
+    EXPECT_EQ(result.exitCode, 0) << result.err;
+    EXPECT_EQ(std::count(result.out.begin(), result.out.end(), '\n'), static_cast<long>(devices.size()));
+    for (const json& device : devices) {
+        EXPECT_NE(result.out.find(device.at("name").get<std::string>()), std::string::npos) << result.out;
+        EXPECT_NE(result.out.find(device.at("driver").get<std::string>()), std::string::npos) << result.out;
+    }
+    EXPECT_NE(result.out.find("can render"), std::string::npos) << result.out;
+}
+
+TEST_F(Devices, WithoutADriverThereIsOneLineAndExitOne) {
+    const EnvironmentVariable oldName("VK_ICD_FILENAMES", (folder_ / "none.json").string());
+    const EnvironmentVariable newName("VK_DRIVER_FILES", (folder_ / "none.json").string());
+    for (const char* command : {"devices", "render"}) {
+        const ProgramResult result = run({command});
+        EXPECT_EQ(result.exitCode, 1) << command;
+        EXPECT_EQ(result.out, "") << command;
+        EXPECT_TRUE(result.err.starts_with("lavalight: error: ")) << result.err;
+        EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+        EXPECT_NE(result.err.find("Vulkan"), std::string::npos) << result.err;
+    }
+    EXPECT_EQ(folder_.count(), 0);
+}
+
+} // namespace
+} // namespace lavalight

@@ -1,0 +1,199 @@
+// `lavalight render`: files, metadata and reports of renders that succeed.
+#include <algorithm>
+#include <map>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "base/file.h"
+#include "image/exr.h"
+#include "support/environment_variable.h"
+#include "support/interrupt_program.h"
+#include "support/run_program.h"
+#include "support/temporary_folder.h"
+
+namespace lavalight {
+namespace {
+
+using nlohmann::json;
+using test::EnvironmentVariable;
+using test::ProgramResult;
+using test::runLavalight;
+using test::TemporaryFolder;
+
+class Render : public testing::Test {
+  protected:
+    // Renders two samples of the built-in scene.
+    [[nodiscard]] ProgramResult render(std::vector<std::string> arguments,
+                                       const std::string& size = "16x12") const {
+        arguments.insert(arguments.begin(), {"render", "--size", size, "--spp", "2"});
+        return runLavalight(arguments, folder_.path());
+    }
+
+    void expectSuccess(const std::vector<std::string>& arguments, const std::string& size = "16x12") const {
+        const ProgramResult result = render(arguments, size);
+        EXPECT_EQ(result.exitCode, 0) << result.err;
+        EXPECT_EQ(result.err, "");
+    }
+
+    [[nodiscard]] ExrFile image(const std::string& name) const { return readExr(folder_ / name); }
+
+    [[nodiscard]] std::map<std::string, std::string> header(const std::string& name) const {
+        const Metadata metadata = image(name).metadata;
+        return {metadata.begin(), metadata.end()};
+    }
+
+    const TemporaryFolder folder_;
+};
+
+void expectEqualPixels(const ExrFile& a, const ExrFile& b) {
+    EXPECT_EQ(a.radiance.pixels, b.radiance.pixels);
+    EXPECT_EQ(a.variance.value().pixels, b.variance.value().pixels);
+    EXPECT_EQ(a.sampleCounts, b.sampleCounts);
+}
+
+TEST_F(Render, WithoutOutputOptionsTheExrIsNamedAfterTheScene) {
+    expectSuccess({});
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "cornell-box.exr"));
+    EXPECT_EQ(folder_.count(), 1);
+}
+
+TEST_F(Render, PngAloneWritesNoExr) {
+    expectSuccess({"--png", "only.png"});
+    EXPECT_TRUE(readFile(folder_ / "only.png").starts_with("\x89PNG"));
+    EXPECT_EQ(folder_.count(), 1);
+}
+
+TEST_F(Render, WritesEveryFileAskedForAndNothingElse) {
+    expectSuccess({"-o", "a.exr", "--png", "b.png", "--report", "c.json"});
+    for (const char* name : {"a.exr", "b.png", "c.json"})
+        EXPECT_TRUE(std::filesystem::exists(folder_ / name)) << name;
+    EXPECT_EQ(folder_.count(), 3);
+}
+
+TEST_F(Render, ImageHasTheSizeAndSamplesAskedFor) {
+    expectSuccess({"-o", "a.exr"});
+    const ExrFile file = image("a.exr");
+    EXPECT_EQ(file.radiance.width, 16u);
+    EXPECT_EQ(file.radiance.height, 12u);
+    EXPECT_EQ(file.sampleCounts, std::vector<uint32_t>(16 * 12, 2));
+    EXPECT_TRUE(file.variance.has_value());
+    EXPECT_TRUE(std::any_of(file.radiance.pixels.begin(), file.radiance.pixels.end(),
+                            [](const glm::vec3& p) { return p.r > 0.0f; }));
+}
+
+TEST_F(Render, ExposureBrightensThePngAndNotTheExr) {
+    expectSuccess({"-o", "a.exr", "--png", "a.png"});
+    expectSuccess({"-o", "b.exr", "--png", "b.png", "--exposure", "2"});
+    EXPECT_NE(readFile(folder_ / "a.png"), readFile(folder_ / "b.png"));
+    expectEqualPixels(image("a.exr"), image("b.exr"));
+}
+
+TEST_F(Render, SummaryIsOneLineOnStdout) {
+    const ProgramResult result = render({});
+    EXPECT_EQ(std::count(result.out.begin(), result.out.end(), '\n'), 1) << result.out;
+    for (const char* part : {"cornell-box", "16x12", "2 samples", "bias ledger: none"})
+        EXPECT_NE(result.out.find(part), std::string::npos) << part << " in " << result.out;
+}
+
+TEST_F(Render, QuietPrintsNothing) {
+    const ProgramResult result = render({"--quiet", "--env", "1,1,1"});
+    EXPECT_EQ(result.exitCode, 0);
+    EXPECT_EQ(result.out, "");
+    EXPECT_EQ(result.err, "");
+}
+
+TEST_F(Render, HeaderSaysHowTheImageCameToBe) {
+    expectSuccess({"-o", "a.exr", "--seed", "9", "--mis", "balance", "--nee", "off", "--roulette", "off",
+                   "--max-bounces", "7", "--env", "0.5,1,2"});
+    const auto keys = header("a.exr");
+    const std::map<std::string, std::string> expected{
+        {"scene", "cornell-box"},      {"camera", "camera"},        {"samples-per-pixel", "2"},
+        {"complete", "yes"},           {"option:size", "16x12"},    {"option:spp", "2"},
+        {"option:seed", "9"},          {"option:mis", "balance"},   {"option:nee", "off"},
+        {"option:roulette", "off"},    {"option:max-bounces", "7"}, {"option:env", "0.5,1,2"},
+        {"option:roulette-start", "3"}};
+    for (const auto& [key, value] : expected)
+        EXPECT_EQ(keys.at(key), value) << key;
+    for (const char* key : {"version", "device", "driver", "render-seconds"})
+        EXPECT_FALSE(keys.at(key).empty()) << key;
+    EXPECT_TRUE(keys.at("bias-ledger").starts_with("cut-paths: ")) << keys.at("bias-ledger");
+}
+
+TEST_F(Render, HeaderNamesTheDeviceThatDevicesNames) {
+    expectSuccess({"-o", "a.exr", "--device", "0"});
+    const json device = json::parse(runLavalight({"devices", "--json"}, folder_.path()).out).front();
+    EXPECT_EQ(header("a.exr").at("device"), device.at("name"));
+    EXPECT_EQ(header("a.exr").at("driver"), device.at("driver"));
+}
+
+TEST_F(Render, ReportIsJsonThatAgreesWithTheImage) {
+    expectSuccess({"-o", "a.exr", "--report", "a.json"});
+    const json report = json::parse(readFile(folder_ / "a.json"));
+    EXPECT_EQ(report.at("samples").at("total"), 16 * 12 * 2);
+    EXPECT_EQ(report.at("samples").at("dropped"), 0);
+    EXPECT_EQ(report.at("rays").at("camera"), 16 * 12 * 2);
+    EXPECT_GT(report.at("rays").at("indirect"), 0);
+    EXPECT_GT(report.at("rays").at("shadow"), 0);
+    EXPECT_EQ(report.at("ledger"), json::array());
+    for (const char* stage : {"load", "device", "prepare", "render", "write"})
+        EXPECT_GE(report.at("seconds").at(stage), 0.0) << stage;
+    for (const char* kernel : {"generate", "extend", "shade", "prepare", "connect", "accumulate"})
+        EXPECT_GT(report.at("kernels").at(kernel).at("dispatches"), 0) << kernel;
+    glm::dvec3 mean(0.0);
+    for (const glm::vec3& pixel : image("a.exr").radiance.pixels)
+        mean += glm::dvec3(pixel) / (16.0 * 12.0);
+    for (glm::length_t c = 0; c < 3; ++c)
+        EXPECT_NEAR(report.at("meanRadiance").at(static_cast<size_t>(c)).get<double>(), mean[c], 1e-6);
+}
+
+TEST_F(Render, WaveSizeBandsAndThreadsChangeNoBit) {
+    {
+        const EnvironmentVariable threads("LP_NUM_THREADS", "1"); // lavapipe's; other drivers do not look
+        expectSuccess({"-o", "one.exr"});
+    }
+    const EnvironmentVariable threads("LP_NUM_THREADS", "2");
+    expectSuccess({"-o", "two.exr"});
+    expectSuccess({"-o", "cut.exr", "--wave-size", "100", "--band-rows", "5"});
+    expectEqualPixels(image("one.exr"), image("two.exr"));
+    expectEqualPixels(image("one.exr"), image("cut.exr"));
+}
+
+TEST_F(Render, EnvironmentReplacesTheScenes) {
+    expectSuccess({"-o", "dark.exr", "--max-bounces", "0"});
+    expectSuccess({"-o", "sky.exr", "--max-bounces", "0", "--env", "5,6,7"}, "64x4");
+    // The wide image looks past the box.
+    EXPECT_EQ(image("sky.exr").radiance.at(0, 2), glm::vec3(5, 6, 7));
+    EXPECT_EQ(image("dark.exr").radiance.at(0, 11), glm::vec3(0));
+}
+
+TEST_F(Render, CameraIsChosenByNameOrIndex) {
+    expectSuccess({"-o", "default.exr"});
+    expectSuccess({"-o", "index.exr", "--camera", "0"});
+    expectSuccess({"-o", "name.exr", "--camera", "camera"});
+    expectEqualPixels(image("default.exr"), image("index.exr"));
+    expectEqualPixels(image("default.exr"), image("name.exr"));
+}
+
+TEST_F(Render, ValidationLayerHasNothingToSay) {
+    expectSuccess({"--validate", "--mis", "off", "--band-rows", "5"});
+}
+
+TEST_F(Render, InterruptionWritesTheImageSoFar) {
+    const uint32_t asked = 1'000'000;
+    const ProgramResult result = test::interruptLavalight(
+        {"render", "--size", "32x24", "--spp", std::to_string(asked), "-o", "a.exr", "--report", "a.json"},
+        folder_.path());
+    EXPECT_EQ(result.exitCode, 130) << result.err;
+    EXPECT_EQ(folder_.count(), 2); // nothing half-written
+    const std::vector<uint32_t> counts = image("a.exr").sampleCounts.value();
+    EXPECT_GT(*std::max_element(counts.begin(), counts.end()), 0u);
+    EXPECT_LT(*std::max_element(counts.begin(), counts.end()), asked);
+    EXPECT_EQ(header("a.exr").at("complete"), "no, interrupted");
+    EXPECT_EQ(header("a.exr").at("option:spp"), "1000000");
+    EXPECT_EQ(json::parse(readFile(folder_ / "a.json")).at("complete"), false);
+}
+
+} // namespace
+} // namespace lavalight

@@ -1,0 +1,24 @@
+#version 460
+// Directional albedo of a material by Monte Carlo: sums over batches of BSDF samples.
+#include "lib/random.glsl"
+#include "scene/material.glsl"
+
+const uint kBatch = 1024u;
+
+layout(local_size_x = 64) in;
+layout(set = 0, binding = 21, std430) writeonly buffer Out { vec4 means[]; }; // of one batch each
+layout(push_constant) uniform Push {
+    vec3 wo;
+    uint material;
+};
+
+void main() {
+    const uint batch = gl_GlobalInvocationID.x;
+    if (batch >= means.length())
+        return;
+    const Surface s = surfaceOf(fetchMaterial(material));
+    vec3 sum = vec3(0.0);
+    for (uint i = 0u; i < kBatch; ++i)
+        sum += sampleBsdf(s, wo, sample3D(SampleKey(4u, batch, i, material), kDimensionBsdf)).weight;
+    means[batch] = vec4(sum / float(kBatch), 0.0);
+}

@@ -1,0 +1,101 @@
+// No surface reflects more than it receives, and white ones without losses reflect all of it.
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <glm/glm.hpp>
+#include <gtest/gtest.h>
+
+#include "support/run_kernel.h"
+#include "support/test_device.h"
+#include "support/test_materials.h"
+#include "test_kernels.h"
+
+namespace lavalight::test {
+namespace {
+
+struct Push { // as in the kernel
+    glm::vec3 wo;
+    uint32_t material;
+};
+
+constexpr size_t kBatches = 128; // of 1024 samples each
+const std::vector<float> kCosines = {1.0f, 0.9f, 0.7f, 0.5f, 0.3f, 0.2f, 0.1f, 0.05f, 0.02f, 0.005f};
+
+struct Albedo {
+    glm::dvec3 mean{0.0};
+    double standardError = 0.0; // of the worst channel
+};
+
+class BsdfEnergyTest : public DeviceTest {
+  protected:
+    // Calls check(material, cosine, albedo) for all materials and angles.
+    template <typename Check>
+    void forEachAlbedo(const std::vector<TestMaterial>& materials, const Check& check) {
+        const MaterialBuffers buffers(device(), materials);
+        KernelRunner runner(device(), test_kernels::find("bsdf_energy_test"), buffers.resources());
+        for (uint32_t material = 0; material < materials.size(); ++material)
+            for (const float cosTheta : kCosines) {
+                SCOPED_TRACE(fmt::format("{}, cosine {}", materials[material].name, cosTheta));
+                const Push push{{std::sqrt(1.0f - cosTheta * cosTheta), 0.0f, cosTheta}, material};
+                check(materials[material], cosTheta, albedoOf(runner.generate<glm::vec4>(kBatches, push)));
+            }
+    }
+
+  private:
+    static Albedo albedoOf(const std::vector<glm::vec4>& means) {
+        glm::dvec3 sum(0.0);
+        glm::dvec3 squares(0.0);
+        for (const glm::vec4& mean : means) {
+            sum += glm::dvec3(mean);
+            squares += glm::dvec3(mean) * glm::dvec3(mean);
+        }
+        const double n = static_cast<double>(means.size());
+        const glm::dvec3 variance = glm::max(squares / n - sum * sum / (n * n), 0.0) / (n - 1.0);
+        return {sum / n, std::sqrt(std::max({variance.x, variance.y, variance.z}))};
+    }
+};
+
+double largest(const glm::dvec3& v) {
+    return std::max({v.x, v.y, v.z});
+}
+
+std::vector<TestMaterial> allMaterials() {
+    std::vector<TestMaterial> all = roughMaterials();
+    for (TestMaterial& material : smoothMaterials())
+        all.push_back(material);
+    return all;
+}
+
+TEST_F(BsdfEnergyTest, NoSurfaceReflectsMoreThanItReceives) {
+    // The coupling reads tabulated albedos: interpolation is off by up to 0.002 (test of the table below).
+    constexpr double interpolation = 0.002;
+    forEachAlbedo(allMaterials(), [](const TestMaterial&, float, const Albedo& albedo) {
+        EXPECT_LE(largest(albedo.mean), 1.0 + interpolation + 4.0 * albedo.standardError);
+    });
+}
+
+TEST_F(BsdfEnergyTest, WhiteLambertReflectsEverything) {
+    forEachAlbedo({roughMaterials().front()}, [](const TestMaterial&, float, const Albedo& albedo) {
+        EXPECT_NEAR(albedo.mean.x, 1.0, 1e-6);
+        EXPECT_NEAR(albedo.mean.y, 1.0, 1e-6);
+        EXPECT_NEAR(albedo.mean.z, 1.0, 1e-6);
+    });
+}
+
+// What the coating does not reflect reaches the base, and the base returns it all.
+TEST_F(BsdfEnergyTest, WhiteDielectricReflectsEverything) {
+    std::vector<TestMaterial> whites;
+    for (const TestMaterial& material : allMaterials())
+        if (material.name.starts_with("white dielectric") || material.name == "smooth white dielectric")
+            whites.push_back(material);
+    ASSERT_EQ(whites.size(), 4u);
+    forEachAlbedo(whites, [](const TestMaterial&, float, const Albedo& albedo) {
+        EXPECT_NEAR(albedo.mean.x, 1.0, 0.01 + 4.0 * albedo.standardError);
+    });
+}
+
+} // namespace
+} // namespace lavalight::test

@@ -1,0 +1,31 @@
+#version 460
+// Samples of the whole BSDF of a material, with what eval and pdf say about the same directions.
+#include "lib/random.glsl"
+#include "scene/material.glsl"
+
+struct Answer {
+    vec3 wi;
+    float pdf;      // as sampleBsdf returns it
+    vec3 weight;
+    float pdfAgain; // pdfBsdf of the direction
+    vec3 f;         // evalBsdf of the direction
+    float unused;
+};
+
+layout(local_size_x = 64) in;
+layout(set = 0, binding = 21, std430) writeonly buffer Out { Answer answers[]; };
+layout(push_constant) uniform Push {
+    vec3 wo;
+    uint material;
+};
+
+void main() {
+    const uint i = gl_GlobalInvocationID.x;
+    if (i >= answers.length())
+        return;
+    const Surface s = surfaceOf(fetchMaterial(material));
+    const vec3 u = sample3D(SampleKey(3u, i, material, 1u), kDimensionBsdf);
+    const BsdfSample drawn = sampleBsdf(s, wo, u);
+    answers[i] =
+        Answer(drawn.wi, drawn.pdf, drawn.weight, pdfBsdf(s, wo, drawn.wi), evalBsdf(s, wo, drawn.wi), 0.0);
+}

@@ -1,0 +1,125 @@
+// The film's sums are exact: bit for bit those of 128-bit integers, from rounding up to saturation.
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "shared/film.h"
+#include "support/random_numbers.h"
+#include "support/run_kernel.h"
+#include "support/test_device.h"
+#include "test_kernels.h"
+
+namespace lavalight::test {
+namespace {
+
+__extension__ using Wide = unsigned __int128;
+
+constexpr size_t kRun = 16; // as in the kernel
+
+struct alignas(16) Answer { // as in the kernel
+    std::array<uint32_t, 4> four;
+    std::array<uint32_t, 3> three;
+    uint32_t leftThree;
+    uint32_t leftFour;
+};
+
+// A sum of `words` 32-bit words, its lowest bit worth 2^lowestExponent.
+class ExactSum {
+  public:
+    ExactSum(uint32_t words, int lowestExponent)
+        : largest_(~Wide{0} >> (128 - 32 * words)), lowestExponent_(lowestExponent) {}
+
+    void add(float x) {
+        int exponent = 0;
+        const auto mantissa = static_cast<uint64_t>(std::ldexp(std::frexp(x, &exponent), 24)); // exact
+        const int shift = exponent - 24 - lowestExponent_;
+        Wide units = 0;
+        bool fits = true;
+        if (mantissa != 0 && shift >= 0) {
+            fits = shift < 128 && (largest_ >> shift) >= mantissa;
+            units = fits ? Wide{mantissa} << shift : 0;
+        } else if (mantissa != 0 && shift > -64) {
+            units = (mantissa + (uint64_t{1} << (-shift - 1))) >> -shift; // to nearest, halves up
+        }
+        if (fits && units <= largest_ - value_) {
+            value_ += units;
+        } else {
+            value_ = largest_;
+            ++left_;
+        }
+    }
+    [[nodiscard]] uint32_t word(size_t i) const { return static_cast<uint32_t>(value_ >> (32 * i)); }
+    [[nodiscard]] uint32_t left() const { return left_; }
+
+  private:
+    Wide value_ = 0;
+    Wide largest_;
+    int lowestExponent_;
+    uint32_t left_ = 0;
+};
+
+class FixedPointTest : public DeviceTest {
+  protected:
+    // Each run of kRun values is one sum.
+    void expectExact(const std::vector<float>& values) {
+        ASSERT_EQ(values.size() % kRun, 0u);
+        KernelRunner runner(device(), test_kernels::find("fixed_point_test"));
+        const auto answers = runner.run<Answer>(std::span<const float>(values), values.size() / kRun);
+        for (size_t i = 0; i < answers.size(); ++i) {
+            ExactSum three(3, kSumLowestExponent);
+            ExactSum four(4, kSquareLowestExponent);
+            for (const float x : std::span(values).subspan(i * kRun, kRun)) {
+                three.add(x);
+                four.add(x);
+            }
+            for (size_t word = 0; word < 3; ++word)
+                ASSERT_EQ(answers[i].three[word], three.word(word)) << "sum " << i << " word " << word;
+            for (size_t word = 0; word < 4; ++word)
+                ASSERT_EQ(answers[i].four[word], four.word(word)) << "sum " << i << " word " << word;
+            ASSERT_EQ(answers[i].leftThree, three.left());
+            ASSERT_EQ(answers[i].leftFour, four.left());
+        }
+    }
+};
+
+std::vector<float> randomValues(float lowest, float highest, size_t count) {
+    Random random(1);
+    std::vector<float> values(count);
+    for (float& x : values)
+        x = std::pow(10.0f, random.between(lowest, highest));
+    return values;
+}
+
+TEST_F(FixedPointTest, SumsOfRadianceAreExact) {
+    expectExact(randomValues(-8.0f, 8.0f, 4096 * kRun));
+}
+
+TEST_F(FixedPointTest, SumsOverTheWholeRangeOfFloatsAreExactOrSaturate) {
+    expectExact(randomValues(-30.0f, 30.0f, 4096 * kRun));
+}
+
+// Values around the smallest unit, the largest sum and the borders of words.
+TEST_F(FixedPointTest, BordersAreExact) {
+    std::vector<float> values = {0.0f, std::numeric_limits<float>::denorm_min(),
+                                 std::numeric_limits<float>::min(), std::numeric_limits<float>::max()};
+    for (int exponent = -90; exponent < 90; ++exponent)
+        for (const float factor : {1.0f, 1.0f - 0x1p-24f, 1.0f + 0x1p-23f, 1.5f})
+            values.push_back(std::ldexp(factor, exponent));
+    std::vector<float> alone; // each value in a sum of its own, then added to itself
+    std::vector<float> repeated;
+    for (const float x : values) {
+        alone.push_back(x);
+        alone.insert(alone.end(), kRun - 1, 0.0f);
+        repeated.insert(repeated.end(), kRun, x);
+    }
+    expectExact(alone);
+    expectExact(repeated);
+}
+
+} // namespace
+} // namespace lavalight::test

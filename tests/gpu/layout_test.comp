@@ -1,0 +1,43 @@
+#version 460
+// Writes each shared struct with its members counted upwards, into the second element of an array: what the scene loads
+// through texel buffers is passed on as loaded.
+#include "lib/ray_offset.glsl"
+#include "scene/light.glsl"
+#include "scene/traverse.glsl"
+#include "shared/frame.h"
+#include "shared/trace.h"
+#include "shared/wavefront.h"
+
+layout(local_size_x = 1) in;
+layout(set = 0, binding = 20, std430) writeonly buffer RayOut { Ray ray[]; };
+layout(set = 0, binding = 21, std430) writeonly buffer HitOut { Hit hit[]; };
+layout(set = 0, binding = 22, std430) writeonly buffer PathOut { Path path[]; };
+layout(set = 0, binding = 23, std430) writeonly buffer ShadowRayOut { ShadowRay shadowRay[]; };
+layout(set = 0, binding = 24, std430) writeonly buffer BounceCountersOut { BounceCounters bounceCounters[]; };
+layout(set = 0, binding = 25, std430) writeonly buffer DispatchSizeOut { DispatchSize dispatchSize[]; };
+layout(set = 0, binding = 26, std430) writeonly buffer WaveRangeOut { WaveRange waveRange[]; };
+layout(set = 0, binding = 27, std430) writeonly buffer FrameParametersOut { FrameParameters frameParameters[]; };
+layout(set = 0, binding = 28, std430) writeonly buffer BvhNodeOut { BvhNode bvhNode[]; };
+layout(set = 0, binding = 29, std430) writeonly buffer LeafTriangleOut { LeafTriangle leafTriangle[]; };
+layout(set = 0, binding = 30, std430) writeonly buffer TriangleNormalsOut { TriangleNormals normals[]; };
+layout(set = 0, binding = 31, std430) writeonly buffer MaterialRecordOut { MaterialRecord material[]; };
+layout(set = 0, binding = 32, std430) writeonly buffer EmitterRecordOut { EmitterRecord emitter[]; };
+layout(set = 0, binding = 33, std430) writeonly buffer TracedHitOut { TracedHit tracedHit[]; };
+
+void main() {
+    ray[1] = Ray(vec3(1, 2, 3), 4u, vec3(5, 6, 7), 8);
+    hit[1] = Hit(1, 2u, vec2(3, 4));
+    path[1] = Path(vec3(1, 2, 3), 4, vec3(5, 6, 7), 8u);
+    shadowRay[1] = ShadowRay(vec3(1, 2, 3), 4u, vec3(5, 6, 7), 8u, vec3(9, 10, 11), 12);
+    bounceCounters[1] = BounceCounters(1u, 2u);
+    dispatchSize[1] = DispatchSize(1u, 2u, 3u, 4u);
+    waveRange[1] = WaveRange(1u, 2u, 3u, 4u, 5u, 6u);
+    frameParameters[1] = FrameParameters(vec3(1, 2, 3), 4u, vec3(5, 6, 7), 8u, vec3(9, 10, 11), 12u,
+                                         vec3(13, 14, 15), 16u, vec3(17, 18, 19), 20u, 21u, 22u, 23u, 24u);
+    normals[1] = TriangleNormals(1u, 2u, 3u, 4u);
+    tracedHit[1] = TracedHit(1, 2u);
+    bvhNode[1] = loadNode(1u);
+    leafTriangle[1] = loadLeafTriangle(1u);
+    material[1] = fetchMaterial(1u);
+    emitter[1] = fetchEmitter(1u);
+}

@@ -1,0 +1,121 @@
+// Both languages agree about the size and the members of every shared struct.
+#include <cstring>
+#include <deque>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "gpu/commands.h"
+#include "shared/bvh.h"
+#include "shared/frame.h"
+#include "shared/scene.h"
+#include "shared/trace.h"
+#include "shared/wavefront.h"
+#include "support/test_device.h"
+#include "test_kernels.h"
+
+namespace lavalight::test {
+namespace {
+
+// One per struct: the members count upwards in the order of their declaration, as in the kernel.
+const Ray kRay{{1, 2, 3}, 4, {5, 6, 7}, 8};
+const Hit kHit{1, 2, {3, 4}};
+const Path kPath{{1, 2, 3}, 4, {5, 6, 7}, 8};
+const ShadowRay kShadowRay{{1, 2, 3}, 4, {5, 6, 7}, 8, {9, 10, 11}, 12};
+const BounceCounters kBounceCounters{1, 2};
+const DispatchSize kDispatchSize{1, 2, 3, 4};
+const WaveRange kWaveRange{1, 2, 3, 4, 5, 6};
+const FrameParameters kFrameParameters{{1, 2, 3},    4,  {5, 6, 7}, 8,  {9, 10, 11}, 12, {13, 14, 15}, 16,
+                                       {17, 18, 19}, 20, 21,        22, 23,          24};
+const TriangleNormals kTriangleNormals{1, 2, 3, 4};
+const TracedHit kTracedHit{1, 2};
+// Loaded through texel buffers; what no kernel loads is 0.
+const BvhNode kBvhNode{{1, 2, 3}, 4, {5, 6, 7, 8}, {9, 10, 11, 12, 13, 14}, {0, 0}};
+const LeafTriangle kLeafTriangle{{1, 2, 3}, 4, {5, 6, 7}, 8, {9, 10, 11}, 12};
+const MaterialRecord kMaterialRecord{{1, 2, 3}, 4, {5, 6, 7}, 8, {9, 10, 11}, 12, 13, 14, 0, 0};
+const EmitterRecord kEmitterRecord{1, 2, 3, 4};
+
+class LayoutTest : public DeviceTest {
+  protected:
+    // Two elements for the kernel to write the second one.
+    template <typename T>
+    const gpu::Buffer& output(const std::string& name) {
+        buffers_.emplace_back(device(), name, 2 * sizeof(T), gpu::BufferUse::storage);
+        resources_.set(name, buffers_.back());
+        return buffers_.back();
+    }
+    template <typename T>
+    void input(const std::string& name, const T& value) {
+        const T elements[2] = {T{}, value};
+        buffers_.emplace_back(device(), name, sizeof elements, gpu::BufferUse::texels);
+        buffers_.back().upload(std::span<const T>(elements));
+        resources_.set(name, buffers_.back());
+    }
+    void runKernel() {
+        const gpu::Kernel kernel(device(), test_kernels::find("layout_test"));
+        const gpu::BoundKernel bound(device(), kernel, resources_);
+        gpu::Commands commands(device());
+        commands.begin();
+        for (const gpu::Buffer& buffer : buffers_)
+            if (buffer.use() == gpu::BufferUse::storage)
+                commands.fill(buffer, 0);
+        commands.dispatch(bound, 1);
+        commands.submitAndWait();
+    }
+
+  private:
+    std::deque<gpu::Buffer> buffers_; // at fixed addresses
+    gpu::ResourceTable resources_;
+};
+
+template <typename T>
+void expectSecond(const gpu::Buffer& buffer, const T& expected) {
+    const T elements[2] = {T{}, expected};
+    const auto words = buffer.downloadAll<uint32_t>();
+    std::vector<uint32_t> wanted(sizeof elements / 4);
+    std::memcpy(wanted.data(), elements, sizeof elements);
+    for (size_t i = 0; i < wanted.size(); ++i)
+        EXPECT_EQ(words[i], wanted[i])
+            << buffer.name() << ": word " << i << " of two elements of " << sizeof(T) << " bytes";
+}
+
+TEST_F(LayoutTest, GlslAndCppLayOutEverySharedStructAlike) {
+    input("bvhNodes", kBvhNode);
+    input("leafTriangles", kLeafTriangle);
+    input("materials", kMaterialRecord);
+    input("emitters", kEmitterRecord);
+    const gpu::Buffer& ray = output<Ray>("RayOut");
+    const gpu::Buffer& hit = output<Hit>("HitOut");
+    const gpu::Buffer& path = output<Path>("PathOut");
+    const gpu::Buffer& shadowRay = output<ShadowRay>("ShadowRayOut");
+    const gpu::Buffer& bounceCounters = output<BounceCounters>("BounceCountersOut");
+    const gpu::Buffer& dispatchSize = output<DispatchSize>("DispatchSizeOut");
+    const gpu::Buffer& waveRange = output<WaveRange>("WaveRangeOut");
+    const gpu::Buffer& frame = output<FrameParameters>("FrameParametersOut");
+    const gpu::Buffer& normals = output<TriangleNormals>("TriangleNormalsOut");
+    const gpu::Buffer& tracedHit = output<TracedHit>("TracedHitOut");
+    const gpu::Buffer& node = output<BvhNode>("BvhNodeOut");
+    const gpu::Buffer& triangle = output<LeafTriangle>("LeafTriangleOut");
+    const gpu::Buffer& material = output<MaterialRecord>("MaterialRecordOut");
+    const gpu::Buffer& emitter = output<EmitterRecord>("EmitterRecordOut");
+    runKernel();
+    expectSecond(ray, kRay);
+    expectSecond(hit, kHit);
+    expectSecond(path, kPath);
+    expectSecond(shadowRay, kShadowRay);
+    expectSecond(bounceCounters, kBounceCounters);
+    expectSecond(dispatchSize, kDispatchSize);
+    expectSecond(waveRange, kWaveRange);
+    expectSecond(frame, kFrameParameters);
+    expectSecond(normals, kTriangleNormals);
+    expectSecond(tracedHit, kTracedHit);
+    expectSecond(node, kBvhNode);
+    expectSecond(triangle, kLeafTriangle);
+    expectSecond(material, kMaterialRecord);
+    expectSecond(emitter, kEmitterRecord);
+}
+
+} // namespace
+} // namespace lavalight::test

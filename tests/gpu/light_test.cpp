@@ -1,0 +1,123 @@
+// Emitters are picked with the probabilities that their pmf says, and sampled with the density that is
+// returned.
+#include <cmath>
+#include <vector>
+
+#include <glm/glm.hpp>
+#include <gtest/gtest.h>
+
+#include "light/emitters.h"
+#include "render/gpu_scene.h"
+#include "support/chi_square.h"
+#include "support/random_numbers.h"
+#include "support/run_kernel.h"
+#include "support/test_device.h"
+#include "test_kernels.h"
+
+namespace lavalight::test {
+namespace {
+
+struct alignas(16) Answer { // as in the kernel
+    glm::vec3 wi;
+    float pdf;
+    glm::vec3 emission;
+    uint32_t emitter;
+    float pmf;
+};
+
+struct Push { // as in the kernel
+    glm::vec3 from;
+    uint32_t emitterCount;
+};
+
+constexpr size_t kSamples = 400000;
+
+// Triangles of one emissive material each, facing the origin from above, of areas and radiances over five
+// decades.
+Scene scatteredLights(size_t count) {
+    Random random(1);
+    Scene scene;
+    for (uint32_t i = 0; i < count; ++i) {
+        Material material;
+        material.emission = glm::vec3(std::pow(10.0f, random.between(-2.0f, 2.0f)));
+        scene.materials.push_back(material);
+        const glm::vec3 p(random.between(-2.0f, 2.0f), random.between(-2.0f, 2.0f),
+                          random.between(1.0f, 3.0f));
+        const float size = random.between(0.05f, 1.0f);
+        scene.meshes.push_back(
+            {"light", i, {p, p + glm::vec3(0, size, 0), p + glm::vec3(size, 0, 0)}, {}, {{0, 1, 2}}});
+    }
+    return scene;
+}
+
+// Signed solid angle of a triangle as seen from the origin. Van Oosterom, Strackee, "The Solid Angle of a
+// Plane Triangle", 1983, eq. 8.
+double solidAngle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+    const double la = glm::length(a);
+    const double lb = glm::length(b);
+    const double lc = glm::length(c);
+    return 2.0 * std::atan2(glm::dot(a, glm::cross(b, c)),
+                            la * lb * lc + glm::dot(a, b) * lc + glm::dot(a, c) * lb + glm::dot(b, c) * la);
+}
+
+class LightTest : public DeviceTest {
+  protected:
+    std::vector<Answer> sample(const Scene& scene, const glm::vec3& from) {
+        const GpuScene gpuScene(device(), scene);
+        gpu::ResourceTable resources;
+        gpuScene.addTo(resources);
+        KernelRunner runner(device(), test_kernels::find("light_test"), resources);
+        return runner.generate<Answer>(kSamples, Push{from, gpuScene.emitterCount()});
+    }
+};
+
+TEST_F(LightTest, EmittersArePickedByTheirPmf) {
+    const Scene scene = scatteredLights(100);
+    const Emitters emitters = findEmitters(scene);
+    std::vector<uint32_t> counts(emitters.list.size());
+    for (const Answer& answer : sample(scene, glm::vec3(0.0f))) {
+        ASSERT_LT(answer.emitter, counts.size());
+        ASSERT_EQ(answer.pmf, emitters.table[answer.emitter].pmf);
+        ++counts[answer.emitter];
+    }
+    std::vector<double> byPmf;
+    std::vector<double> byPower;
+    for (size_t i = 0; i < counts.size(); ++i) {
+        byPmf.push_back(double{emitters.table[i].pmf} * kSamples);
+        byPower.push_back(emitters.list[i].power / emitters.totalPower * kSamples);
+    }
+    EXPECT_GT(chiSquare(counts, byPmf).pValue, kLeastPValue);
+    EXPECT_GT(chiSquare(counts, byPower).pValue, kLeastPValue);
+}
+
+// The mean of emission / pdf is the integral of radiance over the directions of the light, in closed form.
+TEST_F(LightTest, EmissionOverPdfIntegratesToRadianceTimesSolidAngle) {
+    const glm::vec3 from(0.3f, -0.2f, 0.1f);
+    const Scene scene = scatteredLights(8);
+    double expected = 0.0;
+    for (const Mesh& mesh : scene.meshes)
+        expected +=
+            std::abs(solidAngle(glm::dvec3(mesh.positions[0] - from), glm::dvec3(mesh.positions[1] - from),
+                                glm::dvec3(mesh.positions[2] - from))) *
+            scene.materials[mesh.material].emission.x;
+    double sum = 0.0;
+    double squares = 0.0;
+    for (const Answer& answer : sample(scene, from)) {
+        ASSERT_NEAR(glm::length(answer.wi), 1.0f, 1e-5f);
+        const double value = answer.emission.x / answer.pdf;
+        sum += value;
+        squares += value * value;
+    }
+    const double mean = sum / kSamples;
+    const double standardError = std::sqrt((squares / kSamples - mean * mean) / kSamples);
+    EXPECT_NEAR(mean, expected, 4.0 * standardError);
+    EXPECT_LT(standardError, 0.005 * expected); // the comparison means something
+}
+
+TEST_F(LightTest, SingleSidedEmittersDoNotShineBackwards) {
+    for (const Answer& answer : sample(scatteredLights(8), {0.0f, 0.0f, 5.0f}))
+        ASSERT_EQ(answer.emission, glm::vec3(0.0f));
+}
+
+} // namespace
+} // namespace lavalight::test

@@ -1,0 +1,104 @@
+// The shader compiler names file and line of an error, resolves includes, and refuses what cannot be bound.
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "gpu/shader_build.h"
+#include "support/temporary_folder.h"
+
+namespace lavalight::test {
+namespace {
+
+class ShaderBuildTest : public ::testing::Test {
+  protected:
+    void write(const std::string& name, const std::string& text) {
+        std::filesystem::create_directories((folder_ / name).parent_path());
+        writeFileAtomically(folder_ / name, text);
+    }
+    [[nodiscard]] gpu::KernelCode compile(const std::string& name) const {
+        return gpu::compileKernel(folder_ / name, folder_.path());
+    }
+    [[nodiscard]] std::string failure(const std::string& name) const {
+        try {
+            (void)compile(name);
+        } catch (const Error& error) {
+            return error.what();
+        }
+        return "";
+    }
+
+  private:
+    TemporaryFolder folder_;
+};
+
+TEST_F(ShaderBuildTest, AnErrorNamesFileAndLine) {
+    write("broken.comp", "#version 460\nlayout(local_size_x = 64) in;\n\nvoid main() { oops; }\n");
+    const std::string message = failure("broken.comp");
+    EXPECT_NE(message.find("broken.comp:4"), std::string::npos) << message;
+    EXPECT_NE(message.find("oops"), std::string::npos) << message;
+}
+
+TEST_F(ShaderBuildTest, AnErrorInAnIncludeNamesTheIncludedFileAndItsLine) {
+    write("lib/half.glsl", "float half_(float x) {\n    return x * wrong;\n}\n");
+    write("kernel.comp",
+          "#version 460\n#include \"lib/half.glsl\"\nlayout(local_size_x = 1) in;\nvoid main() {}\n");
+    const std::string message = failure("kernel.comp");
+    EXPECT_NE(message.find("half.glsl:2"), std::string::npos) << message;
+}
+
+TEST_F(ShaderBuildTest, IncludesAreFoundFromTheRootAndOnlyOnce) {
+    write("lib/one.glsl", "float one() { return 1.0; }\n");
+    write("lib/two.glsl", "#include \"lib/one.glsl\"\nfloat two() { return 2.0 * one(); }\n");
+    write("kernels/sum.comp", "#version 460\n#include \"lib/one.glsl\"\n#include \"lib/two.glsl\"\n"
+                              "layout(local_size_x = 1) in;\n"
+                              "layout(set = 0, binding = 3) buffer Sum { float sum; };\n"
+                              "void main() { sum = one() + two(); }\n");
+    const gpu::KernelCode code = compile("kernels/sum.comp");
+    EXPECT_EQ(code.name, "sum");
+    EXPECT_FALSE(code.spirv.empty());
+}
+
+TEST_F(ShaderBuildTest, AMissingIncludeIsNamed) {
+    write("kernel.comp",
+          "#version 460\n#include \"lib/absent.glsl\"\nlayout(local_size_x = 1) in;\nvoid main() {}\n");
+    EXPECT_NE(failure("kernel.comp").find("lib/absent.glsl"), std::string::npos);
+}
+
+TEST_F(ShaderBuildTest, BindingsAndPushConstantsAreFoundByName) {
+    write("kernel.comp", "#version 460\nlayout(local_size_x = 1) in;\n"
+                         "layout(set = 0, binding = 7) uniform usamplerBuffer nodes;\n"
+                         "layout(set = 0, binding = 2, std430) buffer Words { uint words[]; };\n"
+                         "layout(set = 0, binding = 4, std430) buffer Unused { uint unused[]; };\n"
+                         "layout(push_constant) uniform Push { uint a; uint b; uint c; };\n"
+                         "void main() { words[a] = texelFetch(nodes, int(b + c)).x; }\n");
+    const gpu::KernelCode code = compile("kernel.comp");
+    ASSERT_EQ(code.bindings.size(), 2u); // of those that are used
+    EXPECT_EQ(code.bindings[0].name, "Words");
+    EXPECT_EQ(code.bindings[0].binding, 2u);
+    EXPECT_EQ(code.bindings[0].kind, gpu::BindingKind::storageBuffer);
+    EXPECT_EQ(code.bindings[1].name, "nodes");
+    EXPECT_EQ(code.bindings[1].binding, 7u);
+    EXPECT_EQ(code.bindings[1].kind, gpu::BindingKind::uniformTexelBuffer);
+    EXPECT_EQ(code.pushConstantBytes, 12u);
+}
+
+TEST_F(ShaderBuildTest, TwoBlocksOnOneBindingAreRefused) {
+    write("clash.comp", "#version 460\nlayout(local_size_x = 1) in;\n"
+                        "layout(set = 0, binding = 1, std430) buffer First { uint first[]; };\n"
+                        "layout(set = 0, binding = 1, std430) buffer Second { uint second[]; };\n"
+                        "void main() { first[0] = second[0]; }\n");
+    const std::string message = failure("clash.comp");
+    EXPECT_NE(message.find("clash"), std::string::npos) << message;
+    EXPECT_NE(message.find("First"), std::string::npos) << message;
+    EXPECT_NE(message.find("Second"), std::string::npos) << message;
+    EXPECT_NE(message.find("binding 1"), std::string::npos) << message;
+}
+
+TEST_F(ShaderBuildTest, AMissingKernelIsNamed) {
+    EXPECT_NE(failure("absent.comp").find("absent.comp"), std::string::npos);
+}
+
+} // namespace
+} // namespace lavalight::test

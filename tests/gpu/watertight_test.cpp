@@ -1,0 +1,118 @@
+// Rays aimed exactly at the edges and vertices of closed meshes never leak, at any scale and far from the
+// origin.
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "render/gpu_scene.h"
+#include "render/ray_tracer.h"
+#include "support/closed_meshes.h"
+#include "support/random_numbers.h"
+#include "support/test_device.h"
+
+namespace lavalight::test {
+namespace {
+
+struct Shape {
+    const char* name;
+    ClosedMesh mesh;
+};
+
+// All vertices, and four points of every edge, in double: where floats cannot name the point, the ray is
+// still aimed at it.
+std::vector<glm::dvec3> verticesAndEdgePoints(const ClosedMesh& mesh) {
+    std::vector<glm::dvec3> points(mesh.positions.begin(), mesh.positions.end());
+    for (const glm::uvec3& t : mesh.triangles)
+        for (glm::length_t i = 0; i < 3; ++i) {
+            const glm::dvec3 a(mesh.positions[t[i]]);
+            const glm::dvec3 b(mesh.positions[t[(i + 1) % 3]]);
+            for (const double along : {0.5, 0.125}) // each edge is seen from both of its triangles
+                points.push_back(a + along * (b - a));
+        }
+    return points;
+}
+
+Ray rayTowards(const glm::vec3& origin, const glm::dvec3& target) {
+    return {origin, kNoTriangle, glm::vec3(glm::normalize(target - glm::dvec3(origin))), 0.0f};
+}
+
+class WatertightTest : public DeviceTest {
+  protected:
+    // Calls check(mesh, placement, tracer) for every shape at every placement.
+    using Check = std::function<void(const ClosedMesh&, const Placement&, RayTracer&)>;
+    void forEachPlacedShape(const Check& check) {
+        const Shape shapes[] = {{"cube", makeCube()},
+                                {"icosphere", makeIcosphere(3)},
+                                {"displaced sphere", displaced(makeIcosphere(3), 0.1f, 1)}};
+        for (const Shape& shape : shapes)
+            for (const Placement& placement : kPlacements) {
+                SCOPED_TRACE(std::string(shape.name) + " " + placement.name());
+                const ClosedMesh mesh = placed(shape.mesh, placement);
+                const GpuScene scene(device(), sceneOf(mesh));
+                RayTracer tracer(device(), scene);
+                check(mesh, placement, tracer);
+            }
+    }
+};
+
+TEST_F(WatertightTest, NoRayFromInsideEscapesThroughAnEdgeOrVertex) {
+    forEachPlacedShape([](const ClosedMesh& mesh, const Placement& placement, RayTracer& tracer) {
+        Random random(1);
+        std::vector<glm::vec3> origins = {placement.centre()};
+        while (origins.size() < 12)
+            origins.push_back(placement.centre() +
+                              0.4f * placement.scale * random.unit() * random.direction());
+        std::vector<Ray> rays;
+        for (const glm::vec3& origin : origins)
+            for (const glm::dvec3& target : verticesAndEdgePoints(mesh))
+                rays.push_back(rayTowards(origin, target));
+        size_t leaks = 0;
+        for (const TracedHit& hit : tracer.closest(rays))
+            leaks += hit.triangle == kNoTriangle ? 1 : 0;
+        EXPECT_EQ(leaks, 0u) << "of " << rays.size() << " rays";
+    });
+}
+
+// Along the radius, so that the target is the first thing to be hit.
+TEST_F(WatertightTest, NoRayFromOutsideEntersThroughAnEdgeOrVertex) {
+    forEachPlacedShape([](const ClosedMesh& mesh, const Placement& placement, RayTracer& tracer) {
+        std::vector<Ray> rays;
+        std::vector<float> distances;
+        for (const glm::dvec3& target : verticesAndEdgePoints(mesh))
+            for (const double factor : {1.5, 3.0, 100.0}) {
+                const glm::dvec3 origin =
+                    glm::dvec3(placement.centre()) + factor * (target - glm::dvec3(placement.centre()));
+                rays.push_back(rayTowards(glm::vec3(origin), target));
+                distances.push_back(
+                    static_cast<float>(glm::distance(glm::dvec3(rays.back().origin), target)));
+            }
+        const std::vector<TracedHit> hits = tracer.closest(rays);
+        size_t leaks = 0;
+        for (size_t i = 0; i < rays.size();
+             ++i) // through the near wall means at least as far as the inside is wide
+            leaks += hits[i].t > distances[i] + 0.5f * placement.scale ? 1 : 0;
+        EXPECT_EQ(leaks, 0u) << "of " << rays.size() << " rays";
+    });
+}
+
+TEST_F(WatertightTest, ShadowRaysFromInsideAreBlockedByEdgesAndVertices) {
+    forEachPlacedShape([](const ClosedMesh& mesh, const Placement& placement, RayTracer& tracer) {
+        Random random(2);
+        std::vector<ShadowRay> rays;
+        for (const glm::dvec3& target : verticesAndEdgePoints(mesh)) {
+            const glm::vec3 origin =
+                placement.centre() + 0.4f * placement.scale * random.unit() * random.direction();
+            const glm::vec3 beyond(2.0 * (target - glm::dvec3(origin)));
+            rays.push_back({origin, kNoTriangle, beyond, kNoTriangle, glm::vec3(1.0f), 0.0f});
+        }
+        size_t leaks = 0;
+        for (const uint32_t occluded : tracer.occluded(rays))
+            leaks += occluded == 0 ? 1 : 0;
+        EXPECT_EQ(leaks, 0u) << "of " << rays.size() << " rays";
+    });
+}
+
+} // namespace
+} // namespace lavalight::test

@@ -1,0 +1,77 @@
+// The same scene, settings and seed give the same bits, however the work is cut up.
+#include <gtest/gtest.h>
+
+#include "scene/builtin.h"
+#include "support/render_scene.h"
+#include "support/test_device.h"
+
+namespace lavalight::test {
+namespace {
+
+class Determinism : public DeviceTest {
+  protected:
+    // 40 x 36 pixels: neither waves nor bands divide them evenly.
+    [[nodiscard]] static RenderSettings baseSettings() { return imageSettings(40, 36, 16); }
+
+    [[nodiscard]] std::vector<uint32_t> filmOf(const RenderSettings& settings) {
+        return renderScene(device(), scene_, settings).filmWords;
+    }
+
+    const Scene scene_ = loadScene("cornell-box");
+};
+
+TEST_F(Determinism, TwoRendersHaveEqualBits) {
+    EXPECT_EQ(filmOf(baseSettings()), filmOf(baseSettings()));
+}
+
+TEST_F(Determinism, AnotherSeedIsAnotherImageOfTheSameMean) {
+    RenderSettings settings = baseSettings();
+    const RenderResult first = renderScene(device(), scene_, settings);
+    settings.estimator.seed = 7;
+    const RenderResult second = renderScene(device(), scene_, settings);
+    EXPECT_NE(first.filmWords, second.filmWords);
+    expectSameMean(first.rendering, second.rendering, 20);
+}
+
+TEST_F(Determinism, WaveSizeChangesNoBit) {
+    const std::vector<uint32_t> expected = filmOf(baseSettings());
+    for (const uint32_t waveSize : {1000u, 4096u, 65536u}) {
+        RenderSettings settings = baseSettings();
+        settings.waveSize = waveSize;
+        EXPECT_EQ(filmOf(settings), expected) << waveSize;
+    }
+}
+
+TEST_F(Determinism, BandHeightChangesNoBit) {
+    const std::vector<uint32_t> expected = filmOf(baseSettings());
+    for (const uint32_t rows : {1u, 7u, 36u, 50u}) {
+        RenderSettings settings = baseSettings();
+        settings.bandRows = rows;
+        EXPECT_EQ(filmOf(settings), expected) << rows;
+    }
+}
+
+TEST_F(Determinism, RangesOfSamplesAddUpExactly) {
+    RenderSettings settings = baseSettings();
+    const std::vector<uint32_t> expected = filmOf(settings);
+    settings.samples = 8;
+    const std::vector<uint32_t> first = filmOf(settings);
+    settings.firstSample = 8;
+    const std::vector<uint32_t> second = filmOf(settings);
+    EXPECT_NE(first, second);
+    EXPECT_EQ(sumOfFilms(first, second), expected);
+}
+
+// One band of such an image exceeds what lavapipe allows in a storage buffer (128 MiB).
+TEST_F(Determinism, ImageTooLargeForOneBufferIsWhole) {
+    RenderSettings settings = imageSettings(100, 16384, 1);
+    settings.estimator.maxBounces = 0;
+    Scene scene;
+    scene.cameras.emplace_back();
+    scene.materials.emplace_back();
+    scene.environment = {0.25f, 0.5f, 2.0f};
+    expectEveryPixel(renderScene(device(), scene, settings), scene.environment);
+}
+
+} // namespace
+} // namespace lavalight::test

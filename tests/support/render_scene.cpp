@@ -1,0 +1,116 @@
+#include "support/render_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include <gtest/gtest.h>
+
+#include "image/png.h"
+#include "render/renderer.h"
+
+namespace lavalight::test {
+namespace {
+
+std::vector<uint32_t> wordsOf(const Film& film) {
+    std::vector<uint32_t> words;
+    for (const FilmBand& band : film.bands()) {
+        const auto planes = band.sums.downloadAll<uint32_t>();
+        const size_t pixels = planes.size() / kFilmWords;
+        for (size_t pixel = 0; pixel < pixels; ++pixel)
+            for (size_t plane = 0; plane < kFilmWords; ++plane)
+                words.push_back(planes[plane * pixels + pixel]);
+    }
+    return words;
+}
+
+void addWords(uint32_t* sum, const uint32_t* more, size_t count) {
+    uint64_t carry = 0;
+    for (size_t i = 0; i < count; ++i) {
+        carry += uint64_t{sum[i]} + more[i];
+        sum[i] = static_cast<uint32_t>(carry);
+        carry >>= 32;
+    }
+}
+
+} // namespace
+
+RenderSettings imageSettings(uint32_t width, uint32_t height, uint32_t samples) {
+    RenderSettings settings;
+    settings.width = width;
+    settings.height = height;
+    settings.samples = samples;
+    return settings;
+}
+
+RenderResult renderScene(gpu::Device& device, const Scene& scene, const RenderSettings& settings) {
+    checkSettings(settings);
+    Renderer renderer(device, scene, scene.cameras.front(), settings);
+    renderer.render([](double) { return true; });
+    return {renderer.rendering(), renderer.film().readTallies(), wordsOf(renderer.film())};
+}
+
+std::vector<uint32_t> sumOfFilms(const std::vector<uint32_t>& a, const std::vector<uint32_t>& b) {
+    std::vector<uint32_t> sum = a;
+    for (size_t pixel = 0; pixel < sum.size(); pixel += kFilmWords) {
+        for (size_t channel = 0; channel < 3; ++channel) {
+            const size_t at = pixel + channel * kChannelWords;
+            addWords(&sum[at], &b[at], kSumWords);
+            addWords(&sum[at + kSumWords], &b[at + kSumWords], kSquareWords);
+        }
+        sum[pixel + kCountPlane] += b[pixel + kCountPlane];
+    }
+    return sum;
+}
+
+ImageMean meanOf(const Rendering& rendering) {
+    ImageMean result;
+    for (size_t i = 0; i < rendering.radiance.pixels.size(); ++i) {
+        result.mean += glm::dvec3(rendering.radiance.pixels[i]);
+        result.standardError += glm::dvec3(rendering.variance.pixels[i]);
+    }
+    const auto n = static_cast<double>(rendering.radiance.pixels.size());
+    result.mean /= n;
+    result.standardError = glm::sqrt(result.standardError) / n;
+    return result;
+}
+
+void expectMean(const RenderResult& result, const glm::dvec3& expected, double precision) {
+    EXPECT_EQ(result.tallies.droppedSamples, 0u);
+    const ImageMean image = meanOf(result.rendering);
+    for (glm::length_t c = 0; c < 3; ++c) {
+        EXPECT_NEAR(image.mean[c], expected[c], kSigmas * image.standardError[c] + kRounding * expected[c])
+            << "channel " << c << ", standard error " << image.standardError[c];
+        EXPECT_LE(image.standardError[c], precision * expected[c]) << "too noisy to prove anything";
+    }
+}
+
+void expectEveryPixel(const RenderResult& result, const glm::dvec3& expected) {
+    EXPECT_EQ(result.tallies.droppedSamples, 0u);
+    for (size_t i = 0; i < result.rendering.radiance.pixels.size(); ++i)
+        for (glm::length_t c = 0; c < 3; ++c)
+            ASSERT_NEAR(result.rendering.radiance.pixels[i][c], expected[c], kRounding * expected[c])
+                << "pixel " << i << ", channel " << c;
+}
+
+void expectSameMean(const Rendering& a, const Rendering& b, uint32_t tileSize) {
+    const uint32_t whole = std::max(a.radiance.width, a.radiance.height);
+    for (const uint32_t size : {tileSize, whole}) {
+        const ZTest test = tileZTest(a.radiance, a.variance, b.radiance, b.variance, size);
+        EXPECT_LT(test.maxAbsZ, kSigmas)
+            << "tiles of " << size << ", worst at " << test.worstTile.x << ", " << test.worstTile.y
+            << ", channel " << test.worstChannel << "; mean "
+            << 100.0 * relativeMeanDifference(a.radiance, b.radiance).overall << " % apart";
+    }
+}
+
+std::string writeDifference(const Image& a, const Image& b, float scale, const std::string& name) {
+    Image difference(a.width, a.height);
+    for (size_t i = 0; i < a.pixels.size(); ++i)
+        difference.pixels[i] = 0.5f + scale * (a.pixels[i] - b.pixels[i]);
+    const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / (name + "-difference.png");
+    writePng(path, difference, 0.0f);
+    return path.string();
+}
+
+} // namespace lavalight::test

@@ -1,0 +1,36 @@
+// The materials that the device tests of the BSDF run over.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "gpu/buffer.h"
+#include "gpu/device.h"
+#include "gpu/kernel.h"
+#include "shared/scene.h"
+
+namespace lavalight::test {
+
+struct TestMaterial {
+    std::string name;
+    MaterialRecord record;
+};
+
+// `alpha` = roughness^2 >= 0.04, so that lobes are wide enough for bins.
+[[nodiscard]] std::vector<TestMaterial> roughMaterials();
+// Mirrors alone and over a diffuse base.
+[[nodiscard]] std::vector<TestMaterial> smoothMaterials();
+
+// Materials and the albedo table on the device, under the names of scene/material.glsl.
+class MaterialBuffers {
+  public:
+    MaterialBuffers(gpu::Device& device, std::span<const TestMaterial> materials);
+    [[nodiscard]] gpu::ResourceTable resources() const;
+
+  private:
+    gpu::Buffer records_;
+    gpu::Buffer albedoTable_;
+};
+
+} // namespace lavalight::test

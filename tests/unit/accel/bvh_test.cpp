@@ -1,0 +1,297 @@
+// The tree finds every triangle, its boxes are never too small, and no input makes it fail or grow too deep.
+#include <algorithm>
+#include <cstring>
+#include <set>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "base/error.h"
+#include "bvh_walk.h"
+#include "scene/dense_scene.h"
+#include "support/random_numbers.h"
+
+namespace lavalight::test {
+namespace {
+
+glm::vec3 randomPoint(Random& random, float reach) {
+    return {random.between(-reach, reach), random.between(-reach, reach), random.between(-reach, reach)};
+}
+
+// Triangles of sides up to `size` in a cube of half side 1; large sizes make spatial splits.
+std::vector<Triangle> scatteredTriangles(uint32_t count, float size, uint32_t seed) {
+    Random random(seed);
+    std::vector<Triangle> triangles;
+    for (uint32_t i = 0; i < count; ++i) {
+        const glm::vec3 v0 = randomPoint(random, 1.0f);
+        triangles.push_back({v0, v0 + randomPoint(random, size), v0 + randomPoint(random, size)});
+    }
+    return triangles;
+}
+
+bool sameTree(const Bvh& a, const Bvh& b) {
+    return a.nodes.size() == b.nodes.size() && a.leafTriangles == b.leafTriangles &&
+           std::memcmp(a.nodes.data(), b.nodes.data(), a.nodes.size() * sizeof(BvhNode)) == 0;
+}
+
+std::set<uint32_t> reachable(const Bvh& bvh) {
+    std::set<uint32_t> ids;
+    forEachSlot(bvh, [&](uint32_t node, int child, uint32_t) {
+        if (const uint32_t reference = bvh.nodes[node].children[child]; isLeaf(reference))
+            for (const uint32_t id : leafOf(bvh, reference))
+                ids.insert(id);
+    });
+    return ids;
+}
+
+// What every tree owes, whatever the input.
+void expectSound(const Bvh& bvh, size_t triangles) {
+    EXPECT_EQ(reachable(bvh).size(), triangles);
+    EXPECT_LE(bvh.stackNeed, kTraversalStackSize);
+    forEachSlot(bvh, [&](uint32_t node, int child, uint32_t) {
+        const uint32_t reference = bvh.nodes[node].children[child];
+        const bool isEmpty = isLeaf(reference) && leafOf(bvh, reference).empty();
+        EXPECT_EQ(childBox(bvh.nodes[node], child).isEmpty(), isEmpty);
+    });
+    uint32_t levels = 0;
+    forEachSlot(bvh, [&](uint32_t, int, uint32_t level) { levels = std::max(levels, level); });
+    EXPECT_LE(3 * (triangles ? levels : 0), bvh.stackNeed);
+}
+
+TEST(Bvh, FindsTheSameClosestHitsAsBruteForce) {
+    for (const float size : {0.2f, 1.5f}) {
+        const std::vector<Triangle> triangles = scatteredTriangles(400, size, 1);
+        const Bvh bvh = buildBvh(triangles);
+        Random random(2);
+        uint32_t hits = 0;
+        for (int i = 0; i < 4000; ++i) {
+            const OracleRay ray{randomPoint(random, 1.5f), random.direction()};
+            const double expected = closestOfAll(triangles, ray);
+            EXPECT_EQ(closestInTree(bvh, triangles, ray), expected);
+            hits += std::isfinite(expected);
+        }
+        EXPECT_GT(hits, 100u);
+    }
+}
+
+TEST(Bvh, FindsWhatEmbreeFindsOnTheDenseScene) {
+    const std::vector<Triangle> triangles = sceneTriangles(makeDenseScene(20000));
+    const Bvh bvh = buildBvh(triangles);
+    Random random(3);
+    std::vector<OracleRay> rays;
+    for (int i = 0; i < 20000; ++i)
+        rays.push_back({randomPoint(random, 4.0f), random.direction()});
+    const std::vector<OracleHit> oracle =
+        EmbreeOracle(triangles, EmbreeOracle::Traversal::robust).closest(rays);
+    uint32_t hits = 0;
+    uint32_t differing = 0;
+    for (size_t i = 0; i < rays.size(); ++i) {
+        const double t = closestInTree(bvh, triangles, rays[i]);
+        hits += std::isfinite(t);
+        // Embree computes in float: grazed triangles are off by more than the tolerance, edges fall to either
+        // side.
+        differing += std::isfinite(t) ? !(std::abs(oracle[i].t - t) <= 1e-4 * t) : std::isfinite(oracle[i].t);
+    }
+    EXPECT_GT(hits, 5000u);
+    EXPECT_LE(differing, 3u);
+}
+
+TEST(Bvh, EveryPointOfATriangleLiesInALeafBoxThatListsIt) {
+    for (const float size : {0.05f, 1.5f}) {
+        const std::vector<Triangle> triangles = scatteredTriangles(2000, size, 4);
+        const Bvh bvh = buildBvh(triangles, {.splitBudget = 1.0f});
+        if (size > 1.0f) {
+            EXPECT_GT(bvh.leafTriangles.size(), triangles.size())
+                << "nothing was split: the test tests nothing";
+        }
+        std::vector<std::vector<Box>> boxes(triangles.size());
+        forEachSlot(bvh, [&](uint32_t node, int child, uint32_t) {
+            if (const uint32_t reference = bvh.nodes[node].children[child]; isLeaf(reference))
+                for (const uint32_t id : leafOf(bvh, reference))
+                    boxes[id].push_back(childBox(bvh.nodes[node], child));
+        });
+        Random random(5);
+        for (size_t id = 0; id < triangles.size(); ++id)
+            for (int i = 0; i < 200; ++i) {
+                const double s = std::sqrt(random.unit());
+                const double r = random.unit();
+                const glm::dvec3 p = (1.0 - s) * glm::dvec3(triangles[id].v0) +
+                                     s * (1.0 - r) * glm::dvec3(triangles[id].v1) +
+                                     s * r * glm::dvec3(triangles[id].v2);
+                EXPECT_TRUE(std::any_of(boxes[id].begin(), boxes[id].end(),
+                                        [&](const Box& b) { return b.contains(p); }));
+            }
+    }
+}
+
+TEST(Bvh, BoxesContainTheBoxesAndTrianglesBelowThem) {
+    const std::vector<Triangle> triangles = scatteredTriangles(3000, 0.3f, 6);
+    const Bvh bvh = buildBvh(triangles, {.splitBudget = 0.0f});
+    forEachSlot(bvh, [&](uint32_t node, int child, uint32_t) {
+        const uint32_t reference = bvh.nodes[node].children[child];
+        const Box box = childBox(bvh.nodes[node], child);
+        if (isLeaf(reference)) {
+            for (const uint32_t id : leafOf(bvh, reference))
+                for (const glm::vec3& v : {triangles[id].v0, triangles[id].v1, triangles[id].v2})
+                    EXPECT_TRUE(box.contains(v));
+            return;
+        }
+        EXPECT_TRUE(box.contains(bvh.nodes[reference].origin)); // the exact lower corner of what is below
+    });
+}
+
+TEST(Bvh, BoxesHaveNoMoreRoomThanTheGridGives) {
+    const std::vector<Triangle> triangles = scatteredTriangles(3000, 0.1f, 7);
+    const Bvh bvh = buildBvh(triangles, {.splitBudget = 0.0f});
+    forEachSlot(bvh, [&](uint32_t node, int child, uint32_t) {
+        const uint32_t reference = bvh.nodes[node].children[child];
+        if (!isLeaf(reference) || leafOf(bvh, reference).empty())
+            return;
+        glm::dvec3 lower(HUGE_VAL), upper(-HUGE_VAL);
+        for (const uint32_t id : leafOf(bvh, reference))
+            for (const glm::vec3& v : {triangles[id].v0, triangles[id].v1, triangles[id].v2}) {
+                lower = glm::min(lower, glm::dvec3(v));
+                upper = glm::max(upper, glm::dvec3(v));
+            }
+        const Box box = childBox(bvh.nodes[node], child);
+        for (int axis = 0; axis < 3; ++axis) {
+            const double step =
+                std::ldexp(1.0, static_cast<int>(bvh.nodes[node].exponents >> (8 * axis) & 0xffu) - 127);
+            EXPECT_LT(lower[axis] - box.lower[axis], step);
+            EXPECT_LT(box.upper[axis] - upper[axis], step);
+        }
+    });
+}
+
+TEST(Bvh, IsTheSameForEveryNumberOfThreads) {
+    const std::vector<Triangle> triangles = sceneTriangles(makeDenseScene(60000));
+    const Bvh one = buildBvh(triangles, {.threads = 1});
+    EXPECT_TRUE(sameTree(one, buildBvh(triangles, {.threads = 1})));
+    EXPECT_TRUE(sameTree(one, buildBvh(triangles, {.threads = 2})));
+    EXPECT_TRUE(sameTree(one, buildBvh(triangles)));
+}
+
+TEST(Bvh, InnerChildrenAreNeighboursInMemory) {
+    const Bvh bvh = buildBvh(scatteredTriangles(1000, 0.1f, 8));
+    for (const BvhNode& node : bvh.nodes) {
+        std::vector<uint32_t> inner;
+        for (int child = 0; child < 4; ++child)
+            if (!isLeaf(node.children[child]))
+                inner.push_back(node.children[child]);
+        for (size_t i = 1; i < inner.size(); ++i)
+            EXPECT_EQ(inner[i], inner[0] + i);
+    }
+}
+
+TEST(Bvh, FillsItsNodes) {
+    const Bvh bvh = buildBvh(scatteredTriangles(5000, 0.05f, 9));
+    uint32_t used = 0;
+    forEachSlot(bvh, [&](uint32_t node, int child, uint32_t) {
+        const uint32_t reference = bvh.nodes[node].children[child];
+        used += !isLeaf(reference) || !leafOf(bvh, reference).empty();
+    });
+    EXPECT_GT(used, 3.5 * static_cast<double>(bvh.nodes.size()));
+}
+
+TEST(Bvh, OfNothingNeverHits) {
+    const Bvh bvh = buildBvh({});
+    ASSERT_EQ(bvh.nodes.size(), 1u);
+    EXPECT_TRUE(bvh.leafTriangles.empty());
+    for (int child = 0; child < 4; ++child) {
+        EXPECT_TRUE(isLeaf(bvh.nodes[0].children[child]));
+        EXPECT_TRUE(leafOf(bvh, bvh.nodes[0].children[child]).empty());
+        EXPECT_TRUE(childBox(bvh.nodes[0], child).isEmpty());
+    }
+    EXPECT_EQ(bvh.bounds.lower, bvh.bounds.upper);
+}
+
+TEST(Bvh, OfOneTriangleFindsIt) {
+    const std::vector<Triangle> triangle{{{0, 0, 2}, {1, 0, 2}, {0, 1, 2}}};
+    const Bvh bvh = buildBvh(triangle);
+    expectSound(bvh, 1);
+    EXPECT_EQ(closestInTree(bvh, triangle, {{0.2f, 0.2f, 0}, {0, 0, 1}}), 2.0);
+    EXPECT_EQ(bvh.bounds.upper, glm::vec3(1, 1, 2));
+}
+
+TEST(Bvh, TakesFiftyThousandIdenticalTriangles) {
+    const std::vector<Triangle> triangles(50000, Triangle{{0, 0, 2}, {1, 0, 2}, {0, 1, 2}});
+    expectSound(buildBvh(triangles), triangles.size());
+}
+
+TEST(Bvh, TakesTrianglesWithoutArea) {
+    std::vector<Triangle> points(5000, Triangle{glm::vec3(3), glm::vec3(3), glm::vec3(3)});
+    expectSound(buildBvh(points), points.size());
+    Random random(10);
+    for (Triangle& line : points) {
+        line.v0 = randomPoint(random, 1.0f);
+        line.v1 = line.v2 = line.v0 + glm::vec3(1, 0, 0);
+    }
+    expectSound(buildBvh(points), points.size());
+}
+
+std::vector<Triangle> scaled(std::vector<Triangle> triangles, float scale) {
+    for (Triangle& t : triangles)
+        t = {t.v0 * scale, t.v1 * scale, t.v2 * scale};
+    return triangles;
+}
+
+TEST(Bvh, IsTheSameTreeAtEveryScale) {
+    const std::vector<Triangle> triangles = scatteredTriangles(5000, 1.0f, 11);
+    const Bvh bvh = buildBvh(triangles);
+    for (const float scale : {0x1p60f, 0x1p-60f})
+        EXPECT_EQ(buildBvh(scaled(triangles, scale)).leafTriangles, bvh.leafTriangles);
+}
+
+TEST(Bvh, TakesHugeAndTinyScenes) {
+    const std::vector<Triangle> triangles = scatteredTriangles(5000, 1.0f, 11);
+    for (const float scale : {4e18f, 1e-38f, 1e-44f})
+        expectSound(buildBvh(scaled(triangles, scale)), triangles.size());
+}
+
+// Small triangles at `perStep` of each of the distances 1, 1/2, 1/4 ... along an axis, the other coordinates
+// given.
+void addHalvingRow(std::vector<Triangle>& triangles, const glm::vec3& start, int axis, int perStep) {
+    Random random(12);
+    for (int power = 0; power < 120; ++power)
+        for (int i = 0; i < perStep; ++i) {
+            const float scale = std::ldexp(1.0f, -power);
+            glm::vec3 v0 = start;
+            v0[axis] = scale * random.between(0.8f, 1.0f);
+            triangles.push_back(
+                {v0, v0 + 0.1f * scale * random.direction(), v0 + 0.1f * scale * random.direction()});
+        }
+}
+
+TEST(Bvh, StaysShallowWhereSizesSpanManyPowersOfTwo) {
+    std::vector<Triangle> triangles;
+    addHalvingRow(triangles, glm::vec3(0.0f), 0, 60);
+    expectSound(buildBvh(triangles), triangles.size());
+}
+
+// Three such rows end to end: what surface areas split off a few at a time makes a tree beyond Embree's
+// depth.
+TEST(Bvh, StaysShallowWhereEmbreeGivesUp) {
+    std::vector<Triangle> triangles;
+    addHalvingRow(triangles, {0, 1, 1}, 0, 60);
+    addHalvingRow(triangles, {0, 0, 1}, 1, 60);
+    addHalvingRow(triangles, {0, 0, 0}, 2, 60);
+    expectSound(buildBvh(triangles), triangles.size());
+}
+
+TEST(Bvh, RefusesCoordinatesThatAreNotFiniteOrTooLarge) {
+    for (const float bad :
+         {std::numeric_limits<float>::quiet_NaN(), -std::numeric_limits<float>::infinity(), 1e19f}) {
+        std::vector<Triangle> triangles = scatteredTriangles(10, 1.0f, 13);
+        triangles[7].v1.z = bad;
+        EXPECT_THROW((void)buildBvh(triangles), Error);
+    }
+}
+
+TEST(Bvh, RefusesWhatDoesNotFitIntoTexelBuffers) {
+    EXPECT_NO_THROW(requireBvhFits(kMaxTexels / 3, kMaxTexels / 4));
+    EXPECT_THROW(requireBvhFits(kMaxTexels / 3 + 1, 0), Error);
+    EXPECT_THROW(requireBvhFits(0, kMaxTexels / 4 + 1), Error);
+}
+
+} // namespace
+} // namespace lavalight::test

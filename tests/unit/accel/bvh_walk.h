@@ -1,0 +1,115 @@
+// The flattened tree read the plain way: boxes decoded in double, recursion, no tolerances; for tests.
+#pragma once
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <span>
+
+#include "accel/bvh.h"
+#include "accel/embree_oracle.h"
+
+namespace lavalight::test {
+
+struct Box {
+    glm::dvec3 lower, upper;
+
+    [[nodiscard]] bool contains(const glm::dvec3& p) const {
+        return glm::all(glm::lessThanEqual(lower, p)) && glm::all(glm::lessThanEqual(p, upper));
+    }
+    [[nodiscard]] bool isEmpty() const { return glm::any(glm::greaterThan(lower, upper)); }
+};
+
+// Exact where origin and extent are within 2^29 of each other in size.
+inline Box childBox(const BvhNode& node, int child) {
+    Box box{};
+    for (int axis = 0; axis < 3; ++axis) {
+        const double step = std::ldexp(1.0, static_cast<int>(node.exponents >> (8 * axis) & 0xffu) - 127);
+        const auto byte = [&](int plane) { return node.planes[plane] >> (8 * child) & 0xffu; };
+        box.lower[axis] = node.origin[axis] + byte(axis) * step;
+        box.upper[axis] = node.origin[axis] + byte(axis + 3) * step;
+    }
+    return box;
+}
+
+// The triangles of a leaf reference.
+inline std::span<const uint32_t> leafOf(const Bvh& bvh, uint32_t reference) {
+    return std::span(bvh.leafTriangles)
+        .subspan(reference & kLeafFirstMask, reference >> kLeafCountShift & kLeafCountMask);
+}
+
+inline bool isLeaf(uint32_t reference) {
+    return (reference & kLeafBit) != 0;
+}
+
+// Calls visit(node index, child, level) for every child slot below a node, the root's level being 1.
+inline void forEachSlot(const Bvh& bvh, const std::function<void(uint32_t, int, uint32_t)>& visit,
+                        uint32_t node = 0, uint32_t level = 1) {
+    for (int child = 0; child < 4; ++child) {
+        visit(node, child, level);
+        if (const uint32_t reference = bvh.nodes[node].children[child]; !isLeaf(reference))
+            forEachSlot(bvh, visit, reference, level + 1);
+    }
+}
+
+// Distance to a triangle in double, or infinity. Based on: Moeller, Trumbore, 1997.
+inline double hitDistance(const Triangle& triangle, const OracleRay& ray) {
+    const glm::dvec3 v0(triangle.v0), d(ray.direction);
+    const glm::dvec3 e1 = glm::dvec3(triangle.v1) - v0;
+    const glm::dvec3 e2 = glm::dvec3(triangle.v2) - v0;
+    const glm::dvec3 s = glm::dvec3(ray.origin) - v0;
+    const double determinant = glm::dot(e1, glm::cross(d, e2));
+    const double b1 = glm::dot(s, glm::cross(d, e2)) / determinant;
+    const double b2 = glm::dot(d, glm::cross(s, e1)) / determinant;
+    const double t = glm::dot(e2, glm::cross(s, e1)) / determinant;
+    const bool hit =
+        determinant != 0.0 && b1 >= 0.0 && b2 >= 0.0 && b1 + b2 <= 1.0 && t > 0.0 && t <= ray.tMax;
+    return hit ? t : std::numeric_limits<double>::infinity();
+}
+
+// Whether the ray meets a box before tMax; rounding of doubles may let near misses in, never hits out.
+inline bool meets(const Box& box, const OracleRay& ray) {
+    double enter = 0.0;
+    double leave = ray.tMax;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double d = ray.direction[axis];
+        if (d == 0.0) {
+            if (ray.origin[axis] < box.lower[axis] || ray.origin[axis] > box.upper[axis])
+                return false;
+            continue;
+        }
+        const double t0 = (box.lower[axis] - ray.origin[axis]) / d;
+        const double t1 = (box.upper[axis] - ray.origin[axis]) / d;
+        enter = std::max(enter, std::min(t0, t1));
+        leave = std::min(leave, std::max(t0, t1));
+    }
+    return enter <= leave + 1e-12 * (1.0 + std::abs(leave));
+}
+
+// The closest hit by way of the tree, infinity for none.
+inline double closestInTree(const Bvh& bvh, std::span<const Triangle> triangles, const OracleRay& ray,
+                            uint32_t node = 0) {
+    double closest = std::numeric_limits<double>::infinity();
+    for (int child = 0; child < 4; ++child) {
+        if (!meets(childBox(bvh.nodes[node], child), ray))
+            continue;
+        const uint32_t reference = bvh.nodes[node].children[child];
+        if (!isLeaf(reference))
+            closest = std::min(closest, closestInTree(bvh, triangles, ray, reference));
+        else
+            for (const uint32_t id : leafOf(bvh, reference))
+                closest = std::min(closest, hitDistance(triangles[id], ray));
+    }
+    return closest;
+}
+
+// The closest hit by way of every triangle.
+inline double closestOfAll(std::span<const Triangle> triangles, const OracleRay& ray) {
+    double closest = std::numeric_limits<double>::infinity();
+    for (const Triangle& triangle : triangles)
+        closest = std::min(closest, hitDistance(triangle, ray));
+    return closest;
+}
+
+} // namespace lavalight::test

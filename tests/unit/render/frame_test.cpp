@@ -1,0 +1,109 @@
+// Image size and camera as the kernels receive them.
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "render/renderer.h"
+
+namespace lavalight {
+namespace {
+
+Camera tiltedCamera() {
+    Camera camera;
+    camera.position = {1.0f, 2.0f, 3.0f};
+    camera.right = {0.0f, 0.0f, -1.0f};
+    camera.up = {0.0f, 1.0f, 0.0f};
+    camera.forward = {1.0f, 0.0f, 0.0f};
+    camera.verticalFov = 1.0f;
+    camera.halfHeight = 2.5f;
+    return camera;
+}
+
+RenderSettings sized(uint32_t width, uint32_t height) {
+    RenderSettings settings;
+    settings.width = width;
+    settings.height = height;
+    return settings;
+}
+
+void expectNear(const glm::vec3& a, const glm::vec3& b) {
+    EXPECT_LT(glm::length(a - b), 1e-6f) << a.x << " " << a.y << " " << a.z;
+}
+
+TEST(ResolveSize, OpenWidthFollowsTheCamerasAspectRatio) {
+    Camera camera;
+    camera.aspect = 1.5f;
+    EXPECT_EQ(resolveSize(sized(0, 512), camera).width, 768u);
+    camera.aspect = 0.333f;
+    EXPECT_EQ(resolveSize(sized(0, 100), camera).width, 33u);
+}
+
+TEST(ResolveSize, WithoutAnAspectRatioTheImageIsSixteenToNine) {
+    EXPECT_EQ(resolveSize(sized(0, 90), Camera()).width, 160u);
+}
+
+TEST(ResolveSize, GivenSizeIsKept) {
+    Camera camera;
+    camera.aspect = 3.0f;
+    const RenderSettings settings = resolveSize(sized(20, 30), camera);
+    EXPECT_EQ(settings.width, 20u);
+    EXPECT_EQ(settings.height, 30u);
+}
+
+TEST(ResolveSize, ExtremeAspectRatiosStayWithinTheLimits) {
+    Camera camera;
+    camera.aspect = 1e9f;
+    EXPECT_EQ(resolveSize(sized(0, 512), camera).width, kMaxImageSide);
+    camera.aspect = 1e-9f;
+    EXPECT_EQ(resolveSize(sized(0, 512), camera).width, 1u);
+}
+
+TEST(Frame, PerspectiveKeepsTheVerticalFieldOfView) {
+    const Camera camera = tiltedCamera();
+    const float half = std::tan(0.5f);
+    for (const auto& [width, height] : {std::pair{200u, 100u}, std::pair{50u, 100u}}) {
+        const FrameParameters frame = makeFrame(Scene(), camera, sized(width, height));
+        EXPECT_EQ(frame.isOrthographic, 0u);
+        EXPECT_EQ(frame.imageWidth, width);
+        EXPECT_EQ(frame.imageHeight, height);
+        expectNear(frame.cameraUp, half * camera.up);
+        expectNear(frame.cameraRight,
+                   half * static_cast<float>(width) / static_cast<float>(height) * camera.right);
+        expectNear(frame.cameraForward, camera.forward);
+        expectNear(frame.cameraPosition, camera.position);
+    }
+}
+
+TEST(Frame, OrthographicSpansTheCamerasHeight) {
+    Camera camera = tiltedCamera();
+    camera.projection = Projection::orthographic;
+    const FrameParameters frame = makeFrame(Scene(), camera, sized(100, 50));
+    EXPECT_EQ(frame.isOrthographic, 1u);
+    expectNear(frame.cameraUp, 2.5f * camera.up);
+    expectNear(frame.cameraRight, 5.0f * camera.right);
+}
+
+TEST(Frame, SettingsReachTheKernels) {
+    RenderSettings settings = sized(8, 8);
+    settings.estimator.seed = 11;
+    settings.estimator.maxBounces = 12;
+    settings.estimator.rouletteStart = 13;
+    settings.waveSize = 1400;
+    const FrameParameters frame = makeFrame(Scene(), Camera(), settings);
+    EXPECT_EQ(frame.seed, 11u);
+    EXPECT_EQ(frame.maxBounces, 12u);
+    EXPECT_EQ(frame.rouletteStart, 13u);
+    EXPECT_EQ(frame.waveSize, 1400u);
+}
+
+TEST(Frame, EnvironmentOfTheSettingsReplacesTheScenes) {
+    Scene scene;
+    scene.environment = {1.0f, 2.0f, 3.0f};
+    RenderSettings settings = sized(8, 8);
+    expectNear(makeFrame(scene, Camera(), settings).environment, scene.environment);
+    settings.environment = glm::vec3(0.0f);
+    expectNear(makeFrame(scene, Camera(), settings).environment, glm::vec3(0.0f));
+}
+
+} // namespace
+} // namespace lavalight

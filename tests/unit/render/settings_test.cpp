@@ -1,0 +1,117 @@
+// Settings: ranges, names and what the image's header says of them.
+#include <map>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "base/error.h"
+#include "render/settings.h"
+
+namespace lavalight {
+namespace {
+
+RenderSettings goodSettings() {
+    RenderSettings settings;
+    settings.width = 640;
+    settings.height = 480;
+    return settings;
+}
+
+// What checkSettings says; empty if it is content.
+std::string complaint(const RenderSettings& settings) {
+    try {
+        checkSettings(settings);
+    } catch (const UsageError& error) {
+        return error.what();
+    }
+    return {};
+}
+
+template <typename Change>
+void expectRefusal(const std::string& option, const Change& change) {
+    RenderSettings settings = goodSettings();
+    change(settings);
+    const std::string message = complaint(settings);
+    EXPECT_TRUE(message.starts_with(option)) << option << ": " << message;
+    EXPECT_NE(message.find("range"), std::string::npos) << message;
+}
+
+TEST(Settings, DefaultsAndLimitsAreAccepted) {
+    EXPECT_EQ(complaint(goodSettings()), "");
+    RenderSettings settings = goodSettings();
+    settings.width = settings.height = kMaxImageSide;
+    settings.estimator.maxBounces = kMaxBounceLimit;
+    settings.samples = settings.estimator.rouletteStart = 0x7fffffff;
+    EXPECT_EQ(complaint(settings), "");
+    settings.width = settings.height = settings.samples = settings.estimator.rouletteStart = 1;
+    settings.estimator.maxBounces = 0;
+    settings.waveSize = 64;
+    EXPECT_EQ(complaint(settings), "");
+}
+
+TEST(Settings, WhatIsOutOfRangeIsRefusedByItsOptionsName) {
+    expectRefusal("--size", [](RenderSettings& s) { s.width = 0; });
+    expectRefusal("--size", [](RenderSettings& s) { s.height = 0; });
+    expectRefusal("--size", [](RenderSettings& s) { s.width = kMaxImageSide + 1; });
+    expectRefusal("--size", [](RenderSettings& s) { s.height = 100'000; });
+    expectRefusal("--spp", [](RenderSettings& s) { s.samples = 0; });
+    expectRefusal("--spp", [](RenderSettings& s) { s.samples = 0x80000000u; });
+    expectRefusal("--wave-size", [](RenderSettings& s) { s.waveSize = 63; });
+    expectRefusal("--wave-size", [](RenderSettings& s) { s.waveSize = 4'000'001; });
+    expectRefusal("--max-bounces", [](RenderSettings& s) { s.estimator.maxBounces = kMaxBounceLimit + 1; });
+    expectRefusal("--roulette-start", [](RenderSettings& s) { s.estimator.rouletteStart = 0; });
+}
+
+std::map<std::string, std::string> described(const RenderSettings& settings) {
+    const auto pairs = describe(settings);
+    std::map<std::string, std::string> map(pairs.begin(), pairs.end());
+    EXPECT_EQ(map.size(), pairs.size()) << "an option is named twice";
+    return map;
+}
+
+TEST(Settings, DescriptionNamesEveryOptionWithItsValue) {
+    RenderSettings settings = goodSettings();
+    settings.samples = 100;
+    settings.firstSample = 28;
+    settings.estimator.seed = 5;
+    settings.estimator.nextEventEstimation = false;
+    settings.estimator.mis = Mis::balance;
+    settings.estimator.roulette = Roulette::off;
+    settings.estimator.rouletteStart = 9;
+    settings.estimator.maxBounces = 12;
+    settings.environment = {0.5f, 1.0f, 2.25f};
+    const auto options = described(settings);
+    EXPECT_EQ(options.at("size"), "640x480");
+    EXPECT_EQ(options.at("spp"), "100");
+    EXPECT_EQ(options.at("first-sample"), "28");
+    EXPECT_EQ(options.at("seed"), "5");
+    EXPECT_EQ(options.at("nee"), "off");
+    EXPECT_EQ(options.at("mis"), "balance");
+    EXPECT_EQ(options.at("roulette"), "off");
+    EXPECT_EQ(options.at("roulette-start"), "9");
+    EXPECT_EQ(options.at("max-bounces"), "12");
+    EXPECT_EQ(options.at("env"), "0.5,1,2.25");
+}
+
+TEST(Settings, DescriptionOfTheScenesOwnEnvironmentNamesNone) {
+    EXPECT_EQ(described(goodSettings()).count("env"), 0u);
+}
+
+// What does not decide the bits must not make two headers differ.
+TEST(Settings, DescriptionLeavesOutHowTheWorkIsCutUp) {
+    RenderSettings settings = goodSettings();
+    settings.waveSize = 4096;
+    settings.bandRows = 3;
+    EXPECT_EQ(described(settings), described(goodSettings()));
+}
+
+TEST(Settings, EstimatorsHaveNames) {
+    EXPECT_EQ(nameOf(Mis::power), "power");
+    EXPECT_EQ(nameOf(Mis::balance), "balance");
+    EXPECT_EQ(nameOf(Mis::off), "off");
+    EXPECT_EQ(nameOf(Roulette::throughput), "throughput");
+    EXPECT_EQ(nameOf(Roulette::off), "off");
+}
+
+} // namespace
+} // namespace lavalight
