@@ -17,6 +17,7 @@
 #include "app/compare_command.h"
 #include "app/devices_command.h"
 #include "app/info_command.h"
+#include "app/lab_command.h"
 #include "app/presets_command.h"
 #include "app/render_command.h"
 #include "base/error.h"
@@ -76,6 +77,7 @@ int parseAndRun(int argc, char** argv) {
     const auto commands = std::to_array<std::unique_ptr<Command>>({
         std::make_unique<RenderCommand>(app),
         std::make_unique<PresetsCommand>(app),
+        std::make_unique<LabCommand>(app),
         std::make_unique<InfoCommand>(app),
         std::make_unique<DevicesCommand>(app),
         std::make_unique<CompareCommand>(app),

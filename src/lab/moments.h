@@ -14,15 +14,17 @@ struct Moments {
     uint64_t count = 0;
 
     // Unbiased estimate of the variance of one sample; 0 for fewer than two samples.
-    [[nodiscard]] double variance() const { return count > 1 ? squares / static_cast<double>(count - 1) : 0.0; }
+    [[nodiscard]] double variance() const {
+        return count > 1 ? squares / static_cast<double>(count - 1) : 0.0;
+    }
     // Of the mean.
     [[nodiscard]] double standardError() const {
         return count > 0 ? std::sqrt(variance() / static_cast<double>(count)) : 0.0;
     }
 };
 
-// Moments of the samples of both. Chan, Golub, LeVeque, "Updating Formulae and a Pairwise Algorithm for Computing Sample
-// Variances", 1979, eq. 2.1.
+// Moments of the samples of both. Chan, Golub, LeVeque, "Updating Formulae and a Pairwise Algorithm for
+// Computing Sample Variances", 1979, eq. 2.1.
 [[nodiscard]] Moments merged(const Moments& a, const Moments& b);
 
 // Of all parts, in their order: the same parts give the same bits.

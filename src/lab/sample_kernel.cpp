@@ -22,7 +22,8 @@ constexpr uint32_t kSamplesEach = 256; // of an invocation of a plain estimate
 constexpr uint32_t kSequenceSamplesEach = 64;
 
 gpu::Kernel makeKernel(const gpu::Device& device, std::string_view name, Sampler sampler) {
-    const std::array<gpu::SpecialisationConstant, 1> constants{{{CONSTANT_SAMPLER, static_cast<uint32_t>(sampler)}}};
+    const std::array<gpu::SpecialisationConstant, 1> constants{
+        {{CONSTANT_SAMPLER, static_cast<uint32_t>(sampler)}}};
     return {device, kernels::find(name), constants};
 }
 
@@ -58,7 +59,8 @@ std::vector<Moments> SampleKernel::streams(LabRun run, uint32_t streams, uint32_
 
 std::vector<Moments> SampleKernel::dispatch(const LabRun& run, std::span<const float> table) const {
     const uint32_t invocations = (run.sampleCount - 1) / run.samplesEach + 1;
-    const gpu::Buffer out(*device_, "lab results", uint64_t{invocations} * sizeof(LabMoments), gpu::BufferUse::storage);
+    const gpu::Buffer out(*device_, "lab results", uint64_t{invocations} * sizeof(LabMoments),
+                          gpu::BufferUse::storage);
     gpu::Buffer input(*device_, "lab table", table.size_bytes(), gpu::BufferUse::storage);
     input.upload(table);
     gpu::ResourceTable resources;

@@ -82,8 +82,8 @@ std::vector<std::string> keysOf(std::span<const Table> tables) {
 std::string csvRow(const Table& table, const std::vector<Cell>& row, const std::vector<std::string>& keys) {
     std::string line = csvField(table.name);
     for (const std::string& key : keys) {
-        const auto column =
-            std::find_if(table.columns.begin(), table.columns.end(), [&](const Column& c) { return c.key == key; });
+        const auto column = std::find_if(table.columns.begin(), table.columns.end(),
+                                         [&](const Column& c) { return c.key == key; });
         line += ",";
         if (column != table.columns.end())
             line += csvCell(row[static_cast<size_t>(column - table.columns.begin())]);
@@ -132,7 +132,11 @@ nlohmann::ordered_json tableJson(const Table& table) {
             object[table.columns[c].key] = cellJson(row[c]);
         rows.push_back(std::move(object));
     }
-    return {{"name", table.name}, {"title", table.title}, {"columns", columns}, {"rows", rows}, {"notes", table.notes}};
+    return {{"name", table.name},
+            {"title", table.title},
+            {"columns", columns},
+            {"rows", rows},
+            {"notes", table.notes}};
 }
 
 std::string tablesCsv(std::span<const Table> tables) {
@@ -149,19 +153,19 @@ std::string tablesCsv(std::span<const Table> tables) {
 
 Table estimatorTable(std::string name, std::string title, const std::vector<EstimatorRow>& rows,
                      const std::vector<Column>& more) {
-    const bool hasTheory = std::any_of(rows.begin(), rows.end(), [](const auto& r) { return r.theory.has_value(); });
+    const bool hasTheory =
+        std::any_of(rows.begin(), rows.end(), [](const auto& r) { return r.theory.has_value(); });
     const auto orNothing = [](const std::optional<double>& value) { return value ? Cell(*value) : Cell(); };
     Table table{std::move(name), std::move(title), {}, {}, {}};
-    table.columns = {{"estimator", "estimator"}, {"samples", "samples"},
-                     {"estimate", "estimate"},   {"exact", "exact"},
-                     {"standardError", "std error"}, {"variance", "variance"}};
+    table.columns = {{"estimator", "estimator"}, {"samples", "samples"},         {"estimate", "estimate"},
+                     {"exact", "exact"},         {"standardError", "std error"}, {"variance", "variance"}};
     if (hasTheory)
         table.columns.push_back({"theoryVariance", "by theory"});
     table.columns.push_back({"ratio", "ratio"});
     table.columns.insert(table.columns.end(), more.begin(), more.end());
     const double naive = rows.empty() ? 0.0 : rows.front().variance * rows.front().cost;
     for (const EstimatorRow& row : rows) {
-        std::vector<Cell> cells{row.estimator,           row.samples,       row.estimate,
+        std::vector<Cell> cells{row.estimator,        row.samples,       row.estimate,
                                 orNothing(row.exact), row.standardError, row.variance};
         if (hasTheory)
             cells.push_back(orNothing(row.theory));

@@ -30,9 +30,11 @@ struct Table {
 };
 
 [[nodiscard]] std::string tableText(const Table& table);
-// {"name", "title", "columns": [{"key", "heading"}], "rows": [{key: value}], "notes"}; a cell without value is null.
+// {"name", "title", "columns": [{"key", "heading"}], "rows": [{key: value}], "notes"}; a cell without value
+// is null.
 [[nodiscard]] nlohmann::ordered_json tableJson(const Table& table);
-// All tables as one (RFC 4180): a first column `table`, then every key that any of them has. Notes are left out.
+// All tables as one (RFC 4180): a first column `table`, then every key that any of them has. Notes are left
+// out.
 [[nodiscard]] std::string tablesCsv(std::span<const Table> tables);
 
 // A row of the kind that nearly every table has.
@@ -42,14 +44,15 @@ struct EstimatorRow {
     double estimate = 0.0;
     std::optional<double> exact;
     double standardError = 0.0;
-    double variance = 0.0;              // of one sample
-    std::optional<double> theory;       // that variance, by formula
-    double cost = 1.0;                  // of one sample; the ratio compares at equal cost
-    std::vector<Cell> more;             // what this table has besides
+    double variance = 0.0;        // of one sample
+    std::optional<double> theory; // that variance, by formula
+    double cost = 1.0;            // of one sample; the ratio compares at equal cost
+    std::vector<Cell> more;       // what this table has besides
 };
 
-// Columns estimator, samples, estimate, exact, standard error, variance, theory (where any row has one), ratio, and
-// `more`. The first row is the naive one: the ratio is (variance * cost) over that of the first row.
+// Columns estimator, samples, estimate, exact, standard error, variance, theory (where any row has one),
+// ratio, and `more`. The first row is the naive one: the ratio is (variance * cost) over that of the first
+// row.
 [[nodiscard]] Table estimatorTable(std::string name, std::string title, const std::vector<EstimatorRow>& rows,
                                    const std::vector<Column>& more = {});
 

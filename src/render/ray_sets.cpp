@@ -6,6 +6,7 @@
 #include <numbers>
 #include <random>
 
+#include "light/alias_table.h"
 #include "light/emitters.h"
 #include "render/renderer.h"
 
@@ -41,11 +42,16 @@ glm::vec3 pointOn(const Triangle& triangle, Random& random) {
     return (1.0f - root) * triangle.v0 + root * (1.0f - along) * triangle.v1 + root * along * triangle.v2;
 }
 
-const Triangle& pickLight(const Emitters& emitters, std::span<const Triangle> triangles, Random& random) {
-    const auto column = static_cast<size_t>(uint64_t{random.bits()} * emitters.table.size() >> 32);
-    const AliasEntry& entry = emitters.table[column];
-    const size_t pick = random.unit() < entry.probability ? column : entry.alias;
-    return triangles[emitters.list[pick].triangle];
+std::vector<AliasEntry> tableByPower(const Emitters& emitters) {
+    std::vector<double> powers;
+    for (const Emitter& emitter : emitters.list)
+        powers.push_back(emitter.power);
+    return buildAliasTable(powers);
+}
+
+size_t pickFrom(std::span<const AliasEntry> table, Random& random) {
+    const auto column = static_cast<size_t>(uint64_t{random.bits()} * table.size() >> 32);
+    return random.unit() < table[column].probability ? column : table[column].alias;
 }
 
 } // namespace
@@ -108,13 +114,14 @@ std::vector<ShadowRay> makeShadowRays(std::span<const SurfacePoint> points, cons
                                       std::span<const Triangle> triangles, uint32_t seed) {
     constexpr float kShare = 0.999f; // of the way to the light
     const Emitters emitters = findEmitters(scene);
+    const std::vector<AliasEntry> table = tableByPower(emitters);
     Random random(seed);
     std::vector<ShadowRay> rays;
     rays.reserve(points.size());
     for (const SurfacePoint& point : points) {
-        const glm::vec3 way = emitters.table.empty()
-                                  ? 2.0f * scene.bounds.radius() * cosineDirection(point.ng, random)
-                                  : pointOn(pickLight(emitters, triangles, random), random) - point.p;
+        const glm::vec3 way =
+            table.empty() ? 2.0f * scene.bounds.radius() * cosineDirection(point.ng, random)
+                          : pointOn(triangles[emitters.list[pickFrom(table, random)].triangle], random) - point.p;
         rays.push_back({point.p, kNoTriangle, kShare * way, kNoTriangle, glm::vec3(0.0f), 0.0f});
     }
     return rays;

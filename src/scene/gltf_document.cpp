@@ -19,8 +19,9 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::array<std::string_view, 3> kSupportedExtensions = {
-    "KHR_materials_emissive_strength", "KHR_materials_ior", "KHR_materials_specular"};
+constexpr std::array<std::string_view, 6> kSupportedExtensions = {
+    "KHR_lights_punctual",    "KHR_materials_emissive_strength", "KHR_materials_ior",
+    "KHR_materials_specular", "KHR_materials_transmission",      "KHR_materials_volume"};
 
 bool isSupported(std::string_view extension) {
     return std::find(kSupportedExtensions.begin(), kSupportedExtensions.end(), extension) !=
@@ -104,6 +105,22 @@ size_t giveEachAccessorAView(Json& part) {
     return views;
 }
 
+// The root's extensions that become structures: the punctual lights. tinygltf refuses spot lights without
+// their cone as well, but without naming the light.
+Json rootExtensions(const Json& json, const std::string& source) {
+    constexpr const char* kLights = "KHR_lights_punctual";
+    const Json extensions = json.value("extensions", Json::object());
+    if (!extensions.contains(kLights) || !extensions[kLights].contains("lights"))
+        return Json::object();
+    const Json& lights = extensions[kLights]["lights"];
+    for (size_t i = 0; i < lights.size(); ++i) {
+        if (lights[i].at("type") == "spot" && !lights[i].contains("spot"))
+            throw gltfError(source, describe("light", i, lights[i].value("name", "")) +
+                                        " is a spot light without \"spot\"");
+    }
+    return {{kLights, {{"lights", lights}}}};
+}
+
 // tinygltf reads the parts of the file that become structures, after the checks; what would make it open
 // files or decode images stays out of its sight, because it follows offsets and addresses unchecked.
 tinygltf::Model parseModel(Json& json, const std::string& source) {
@@ -113,6 +130,7 @@ tinygltf::Model parseModel(Json& json, const std::string& source) {
         if (json.contains(section))
             part[section] = std::move(json[section]);
     }
+    part["extensions"] = rootExtensions(json, source);
     const size_t views = giveEachAccessorAView(part);
     const std::string text = part.dump();
     if (text.size() > std::numeric_limits<unsigned int>::max())

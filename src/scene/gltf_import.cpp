@@ -12,6 +12,7 @@
 #include "scene/gltf_accessor.h"
 #include "scene/gltf_camera.h"
 #include "scene/gltf_document.h"
+#include "scene/gltf_light.h"
 #include "scene/gltf_material.h"
 #include "scene/gltf_mesh.h"
 #include "scene/gltf_nodes.h"
@@ -57,6 +58,11 @@ bool hasEmission(const Scene& scene) {
     });
 }
 
+bool hasPunctualLight(const Scene& scene) {
+    return std::any_of(scene.punctualLights.begin(), scene.punctualLights.end(),
+                       [](const PunctualLight& light) { return light.intensity != glm::vec3(0.0f); });
+}
+
 Scene buildScene(const GltfDocument& document) {
     checkAccessors(document);
     GltfNotes notes;
@@ -76,7 +82,8 @@ Scene buildScene(const GltfDocument& document) {
         notes.add("the scene has no triangles");
     if (scene.cameras.empty())
         scene.cameras.push_back(framingCamera(scene.bounds));
-    if (!hasEmission(scene)) {
+    scene.punctualLights = readPunctualLights(document, nodes, notes);
+    if (!hasEmission(scene) && !hasPunctualLight(scene)) {
         scene.environment = glm::vec3(1.0f);
         notes.add("the scene has no light: a constant white environment stands in");
     }

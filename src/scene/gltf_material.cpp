@@ -1,40 +1,15 @@
 // Metallic-roughness materials (glTF 2.0 specification, section 3.9) with KHR_materials_emissive_strength,
-// KHR_materials_specular and KHR_materials_ior.
+// KHR_materials_specular, KHR_materials_ior, KHR_materials_transmission and, but for its attenuation,
+// KHR_materials_volume.
 #include "scene/gltf_material.h"
 
 #include <algorithm>
 #include <string>
 
-#include <fmt/format.h>
+#include "scene/gltf_factors.h"
 
 namespace lavalight {
 namespace {
-
-// Where no limit is given: products of a few such factors stay finite in single precision.
-constexpr double kLargestFactor = 1e15;
-
-// Reads the factors of one material, clamps them, and remembers that it had to.
-class FactorReader {
-  public:
-    FactorReader(const std::string& name, GltfNotes& notes) : name_(name), notes_(notes) {}
-
-    float clamped(double value, double lower, double upper, const char* factor) {
-        if (!(value >= lower && value <= upper))
-            notes_.addObject(fmt::format("{} was clamped to {} .. {}", factor, lower, upper), name_);
-        return static_cast<float>(std::clamp(value, lower, upper));
-    }
-
-    glm::vec3 clamped(const std::vector<double>& values, double upper, const char* factor) {
-        glm::vec3 color;
-        for (int i = 0; i < 3; ++i)
-            color[i] = clamped(values[static_cast<size_t>(i)], 0.0, upper, factor);
-        return color;
-    }
-
-  private:
-    const std::string& name_;
-    GltfNotes& notes_;
-};
 
 double numberIn(const tinygltf::Value& extension, const char* member, double otherwise) {
     return extension.Has(member) ? extension.Get(member).GetNumberAsDouble() : otherwise;
@@ -45,22 +20,43 @@ const tinygltf::Value* findExtension(const tinygltf::Material& source, const cha
     return found == source.extensions.end() ? nullptr : &found->second;
 }
 
+glm::vec3 colorIn(const tinygltf::Value& extension, const char* member, double largest,
+                  FactorReader& factors) {
+    if (!extension.Has(member))
+        return glm::vec3(1.0f);
+    std::vector<double> values;
+    for (int i = 0; i < 3; ++i)
+        values.push_back(extension.Get(member).Get(i).GetNumberAsDouble());
+    return factors.clamped(values, largest, member);
+}
+
 void readSpecular(const tinygltf::Value& extension, Material& material, FactorReader& factors) {
     material.specular =
         factors.clamped(numberIn(extension, "specularFactor", 1.0), 0.0, 1.0, "specularFactor");
-    if (!extension.Has("specularColorFactor"))
-        return;
-    const tinygltf::Value& color = extension.Get("specularColorFactor");
-    std::vector<double> values;
-    for (int i = 0; i < 3; ++i)
-        values.push_back(color.Get(i).GetNumberAsDouble());
-    material.specularColor = factors.clamped(values, kLargestFactor, "specularColorFactor");
+    material.specularColor = colorIn(extension, "specularColorFactor", kLargestFactor, factors);
 }
 
 // An index of refraction of 0 is a value of its own: it makes F0 1, which older formats' conversions use.
 void readIor(const tinygltf::Value& extension, Material& material, FactorReader& factors) {
     const double ior = numberIn(extension, "ior", 1.5);
     material.ior = ior == 0.0 ? 0.0f : factors.clamped(ior, 1.0, kLargestFactor, "ior");
+}
+
+void readTransmission(const tinygltf::Value& extension, Material& material, FactorReader& factors) {
+    material.transmission =
+        factors.clamped(numberIn(extension, "transmissionFactor", 0.0), 0.0, 1.0, "transmissionFactor");
+}
+
+// The figure of the thickness is for renderers that do not trace rays; here it says which meshes are the
+// boundaries of bodies, and these may attenuate.
+void readVolume(const tinygltf::Value& extension, const std::string& name, Material& material,
+                GltfNotes& notes) {
+    FactorReader factors(name, notes);
+    const double thickness = numberIn(extension, "thicknessFactor", 0.0);
+    material.isSolid = factors.clamped(thickness, 0.0, kLargestFactor, "thicknessFactor") > 0.0f;
+    const glm::vec3 color = colorIn(extension, "attenuationColor", 1.0, factors);
+    if (material.isSolid && extension.Has("attenuationDistance") && color != glm::vec3(1.0f))
+        notes.addObject("attenuation is not read yet, these materials are shown clear", name);
 }
 
 void readEmission(const tinygltf::Material& source, const std::string& name, Material& material,
@@ -97,6 +93,10 @@ Material readMaterial(const tinygltf::Material& source, size_t index, GltfNotes&
         readSpecular(*extension, material, factors);
     if (const tinygltf::Value* extension = findExtension(source, "KHR_materials_ior"))
         readIor(*extension, material, factors);
+    if (const tinygltf::Value* extension = findExtension(source, "KHR_materials_transmission"))
+        readTransmission(*extension, material, factors);
+    if (const tinygltf::Value* extension = findExtension(source, "KHR_materials_volume"))
+        readVolume(*extension, name, material, notes);
     if (source.alphaMode != "OPAQUE")
         notes.addObject("alpha is not read yet, these materials are shown opaque", name);
     return material;

@@ -162,10 +162,26 @@ class SchemaCheck {
 
     void checkIndex(Json& value, std::string_view target, const std::string& where) {
         const uint64_t index = checkInteger(value, where);
-        const auto array = root_.find(target);
-        const size_t size = array == root_.end() || !array->is_array() ? 0 : array->size();
+        const size_t size = sizeOf(target);
         if (index >= size)
-            fail(where, fmt::format("is {}, but the file has {} {}", index, size, target));
+            fail(where, fmt::format("is {}, but the file has {} {}", index, size,
+                                    target.substr(target.rfind('.') + 1)));
+    }
+
+    // Elements of the array that `path` leads to from the root; 0 where there is none.
+    [[nodiscard]] size_t sizeOf(std::string_view path) const {
+        const Json* json = &root_;
+        while (json->is_object()) {
+            const size_t dot = path.find('.');
+            const auto member = json->find(path.substr(0, dot));
+            if (member == json->end())
+                return 0;
+            json = &*member;
+            if (dot == std::string_view::npos)
+                break;
+            path.remove_prefix(dot + 1);
+        }
+        return json->is_array() ? json->size() : 0;
     }
 
     void checkStride(uint64_t stride, const std::string& where) const {

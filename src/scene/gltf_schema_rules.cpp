@@ -42,6 +42,19 @@ void addFileRules(std::vector<ObjectRule>& rules) {
                       required("zfar", Kind::number), required("znear", Kind::number)}});
 }
 
+// The lights themselves may be missing: some exporters declare the extension of every file.
+void addLightRules(std::vector<ObjectRule>& rules) {
+    rules.push_back(
+        {"extensions.KHR_lights_punctual", {{"lights", Kind::object, Need::optional, kAnyLength}}});
+    rules.push_back({"extensions.KHR_lights_punctual.lights[]",
+                     {required("type", Kind::text), optional("name", Kind::text),
+                      optional("intensity", Kind::number), numbers("color", 3)}});
+    rules.push_back({"extensions.KHR_lights_punctual.lights[].spot",
+                     {optional("innerConeAngle", Kind::number), optional("outerConeAngle", Kind::number)}});
+    rules.push_back({"nodes[].extensions.KHR_lights_punctual",
+                     {index("light", "extensions.KHR_lights_punctual.lights", Need::required)}});
+}
+
 void addDataRules(std::vector<ObjectRule>& rules) {
     rules.push_back({"buffers[]", {required("byteLength", Kind::positive), optional("uri", Kind::text)}});
     rules.push_back({"bufferViews[]",
@@ -84,12 +97,19 @@ void addMaterialRules(std::vector<ObjectRule>& rules) {
     rules.push_back({"materials[].extensions.KHR_materials_specular",
                      {optional("specularFactor", Kind::number), numbers("specularColorFactor", 3)}});
     rules.push_back({"materials[].extensions.KHR_materials_ior", {optional("ior", Kind::number)}});
+    rules.push_back({"materials[].extensions.KHR_materials_transmission",
+                     {optional("transmissionFactor", Kind::number)}});
+    rules.push_back({"materials[].extensions.KHR_materials_volume",
+                     {optional("thicknessFactor", Kind::number),
+                      optional("attenuationDistance", Kind::number), numbers("attenuationColor", 3)}});
     for (const char* texture :
          {"materials[].pbrMetallicRoughness.baseColorTexture",
           "materials[].pbrMetallicRoughness.metallicRoughnessTexture", "materials[].normalTexture",
           "materials[].occlusionTexture", "materials[].emissiveTexture",
           "materials[].extensions.KHR_materials_specular.specularTexture",
-          "materials[].extensions.KHR_materials_specular.specularColorTexture"})
+          "materials[].extensions.KHR_materials_specular.specularColorTexture",
+          "materials[].extensions.KHR_materials_transmission.transmissionTexture",
+          "materials[].extensions.KHR_materials_volume.thicknessTexture"})
         rules.push_back({texture, {index("index", "textures", Need::required)}});
     rules.push_back({"textures[]", {index("sampler", "samplers")}});
     rules.push_back({"images[]", {index("bufferView", "bufferViews"), optional("uri", Kind::text)}});
@@ -110,6 +130,7 @@ void addMotionRules(std::vector<ObjectRule>& rules) {
 std::vector<ObjectRule> gltfSchemaRules() {
     std::vector<ObjectRule> rules;
     addFileRules(rules);
+    addLightRules(rules);
     addDataRules(rules);
     addMaterialRules(rules);
     addMotionRules(rules);

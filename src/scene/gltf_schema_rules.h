@@ -31,7 +31,7 @@ struct PropertyRule {
     Kind kind;             // of the value, or of each element where `length` asks for an array
     Need need = Need::optional;
     size_t length = kNoArray;     // elements of the array
-    std::string_view target = {}; // the array of the root that an index points into
+    std::string_view target = {}; // the array that an index points into, from the root: "a.b.array"
 };
 
 // `path` leads from the root to objects: "meshes[].primitives[]" is every primitive of every mesh.

@@ -8,9 +8,6 @@
 namespace lavalight {
 namespace {
 
-// Metres. Squares of sizes up to here, which bounds and distances need, stay finite in single precision.
-constexpr float kLargestPosition = 1e18f;
-
 bool isUsable(const glm::vec3& position) {
     const glm::vec3 size = glm::abs(position);
     return size.x <= kLargestPosition && size.y <= kLargestPosition &&

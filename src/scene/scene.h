@@ -21,7 +21,7 @@ struct Material {
     float specular = 1.0f; // KHR_materials_specular; 0 makes the dielectric a pure Lambert surface
     glm::vec3 specularColor{1.0f};
     float transmission = 0.0f; // share of light that enters the surface instead of its base
-    bool isSolid = false;      // a transmissive surface is the boundary of a refracting body; else a thin wall
+    bool isSolid = false; // a transmissive surface is the boundary of a refracting body; else a thin wall
     bool doubleSided = false;
 };
 
@@ -73,13 +73,17 @@ struct Bounds {
 // buffers have on the devices we know.
 constexpr uint64_t kMostTriangles = 134'217'728 / 3;
 
+// Metres from the origin in each coordinate. Squares of distances up to here, which bounds and falloff need,
+// stay finite in single precision.
+constexpr float kLargestPosition = 1e18f;
+
 struct Scene {
     std::string source; // file or built-in name
     std::vector<Mesh> meshes;
     std::vector<Material> materials; // never empty: meshes without one use a default material
     std::vector<Camera> cameras;     // never empty after import: one that frames the scene stands in
     std::vector<PunctualLight> punctualLights;
-    glm::vec3 environment{0.0f};     // constant radiance from every direction that hits nothing
+    glm::vec3 environment{0.0f}; // constant radiance from every direction that hits nothing
     Bounds bounds;
     std::vector<std::string> warnings;          // what was not understood, one line each, with names
     std::vector<std::string> ignoredExtensions; // exact names; they enter the bias ledger

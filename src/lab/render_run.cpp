@@ -1,0 +1,101 @@
+#include "lab/render_run.h"
+
+#include <chrono>
+#include <cmath>
+
+#include "render/renderer.h"
+#include "scene/builtin.h"
+
+namespace lavalight {
+namespace {
+
+double meanOfChannels(const glm::vec3& v) {
+    return (double{v.x} + double{v.y} + double{v.z}) / 3.0;
+}
+
+double deviationOfChannels(const glm::vec3& variance) {
+    return (std::sqrt(double{variance.x}) + std::sqrt(double{variance.y}) + std::sqrt(double{variance.z})) /
+           3.0;
+}
+
+// Fills in what the film says. Deviations of a pixel's channels are added, not their squares: they share
+// their paths.
+void addFilm(RenderRun& run, const Rendering& rendering) {
+    const auto pixels = static_cast<double>(rendering.radiance.pixels.size());
+    double squares = 0.0;
+    for (size_t i = 0; i < rendering.radiance.pixels.size(); ++i) {
+        const double deviation = deviationOfChannels(rendering.variance.pixels[i]);
+        squares += deviation * deviation;
+        run.mean += meanOfChannels(rendering.radiance.pixels[i]) / pixels;
+        run.variance += meanOfChannels(rendering.variance.pixels[i]) * rendering.sampleCounts[i] / pixels;
+        run.paths += rendering.sampleCounts[i];
+    }
+    run.standardError = std::sqrt(squares) / pixels;
+}
+
+} // namespace
+
+double RenderRun::raysPerPath() const {
+    return static_cast<double>(rays.camera + rays.indirect) / static_cast<double>(paths);
+}
+
+double RenderRun::efficiency() const {
+    const double cost = variance / static_cast<double>(samples) * seconds;
+    return cost > 0.0 ? 1.0 / cost : 0.0;
+}
+
+RenderBench::RenderBench(gpu::Device& device, const std::string& scene, uint32_t height)
+    : device_(&device), scene_(loadScene(scene)), height_(height) {}
+
+RenderSettings RenderBench::settings(const EstimatorSettings& estimator, uint32_t samples) const {
+    RenderSettings settings;
+    settings.estimator = estimator;
+    settings.height = height_;
+    settings.samples = samples;
+    settings = resolveSize(settings, scene_.cameras.front());
+    checkSettings(settings);
+    return settings;
+}
+
+RenderRun RenderBench::measure(const EstimatorSettings& estimator, uint32_t samples) const {
+    Renderer renderer(*device_, scene_, scene_.cameras.front(), settings(estimator, samples));
+    const auto start = std::chrono::steady_clock::now();
+    renderer.render([](double) { return true; });
+    RenderRun run;
+    run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    run.samples = samples;
+    run.rays = renderer.wavefront().rays();
+    addFilm(run, renderer.rendering());
+    return run;
+}
+
+EstimatorSettings independentSettings(uint32_t seed) {
+    EstimatorSettings settings;
+    settings.sampler = Sampler::independent;
+    settings.seed = seed;
+    return settings;
+}
+
+void RenderTable::add(const std::string& name, const EstimatorSettings& estimator) {
+    const RenderRun run = bench_->measure(estimator, samples_);
+    EstimatorRow row{name, run.samples, run.mean, {}, run.standardError, run.variance, {}, 1.0, {}};
+    const double shadowRays = static_cast<double>(run.rays.shadow) / static_cast<double>(run.paths);
+    row.more = {run.raysPerPath(), shadowRays, run.seconds, run.efficiency()};
+    rows_.push_back(row);
+}
+
+Table RenderTable::table(const std::string& name, const std::string& title) const {
+    Table table = estimatorTable(name, title, rows_,
+                                 {{"raysPerPath", "rays a path"},
+                                  {"shadowRaysPerPath", "shadow rays"},
+                                  {"seconds", "seconds"},
+                                  {"efficiency", "efficiency"}});
+    table.notes = {
+        "Means over pixels and channels; samples are per pixel; the variance is that of one sample, by the "
+        "film; "
+        "efficiency is 1 / (variance of a pixel's mean * seconds). Seconds differ from run to run, all else "
+        "repeats."};
+    return table;
+}
+
+} // namespace lavalight

@@ -1,0 +1,69 @@
+// A small render whose estimator is measured: mean, variance, rays, time.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "gpu/device.h"
+#include "lab/table.h"
+#include "render/settings.h"
+#include "render/wavefront.h"
+#include "scene/scene.h"
+
+namespace lavalight {
+
+// Means are over pixels and channels.
+struct RenderRun {
+    uint64_t samples = 0; // per pixel
+    double mean = 0.0;
+    double standardError = 0.0; // of that mean, at most: as if the channels of a pixel were one
+    double variance = 0.0;      // of one sample, by the film: only for Sampler::independent without bias
+    double seconds = 0.0;
+    uint64_t paths = 0;
+    RayCounts rays;
+
+    // Rays from the camera or a scattering vertex: how long a path is on average.
+    [[nodiscard]] double raysPerPath() const;
+    // 1 / (variance of a pixel's mean * time): how much is got for a second.
+    [[nodiscard]] double efficiency() const;
+};
+
+class RenderBench {
+  public:
+    // `scene` is a built-in name or a file; `height` in pixels, the width follows from its camera.
+    RenderBench(gpu::Device& device, const std::string& scene, uint32_t height);
+
+    [[nodiscard]] RenderRun measure(const EstimatorSettings& estimator, uint32_t samples) const;
+
+    [[nodiscard]] gpu::Device& device() const { return *device_; }
+    [[nodiscard]] const Scene& scene() const { return scene_; }
+    [[nodiscard]] RenderSettings settings(const EstimatorSettings& estimator, uint32_t samples) const;
+
+  private:
+    gpu::Device* device_;
+    Scene scene_;
+    uint32_t height_;
+};
+
+// Settings that differ from the defaults in the sampler alone, so that the film's variance is that of the
+// estimator.
+[[nodiscard]] EstimatorSettings independentSettings(uint32_t seed);
+
+// Measures estimators one by one and gathers their rows; the first is the naive one.
+class RenderTable {
+  public:
+    explicit RenderTable(const RenderBench& bench, uint32_t samples) : bench_(&bench), samples_(samples) {}
+
+    void add(const std::string& name, const EstimatorSettings& estimator);
+    // Columns of an estimator's table, then rays per path, shadow rays per path, seconds, efficiency. Notes
+    // start with what the figures are and are not.
+    [[nodiscard]] Table table(const std::string& name, const std::string& title) const;
+
+  private:
+    const RenderBench* bench_;
+    uint32_t samples_;
+    std::vector<EstimatorRow> rows_;
+};
+
+} // namespace lavalight
