@@ -18,7 +18,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402 (the backend is chosen first)
 
 PRESETS = ["naive", "cosine", "nee", "mis", "roulette", "reference"]
-STRIPS = [("cornell-box", 0.0), ("veach-mis", 0.0)]  # scene, stops of exposure
+STRIPS = [("cornell-box", 1.0), ("veach-mis", 4 / 3)]  # scene, width over height of its camera
 REFERENCE_TIMES = 12  # the image that errors are taken against gets so many times the time of a strip's
 BLUE, ORANGE, GREY = "#2f6db3", "#d9822b", "#8a8f98"
 
@@ -137,20 +137,20 @@ def experiment_html(result):
     return "\n".join(parts)
 
 
-def make_reference(lab, scene, arguments):
+def make_reference(lab, scene, size, seconds):
     """Another seed than the strips': Sobol's samples of one seed would share their errors."""
-    lab.run("render", scene, "--height", str(arguments.height), "--preset", "reference", "--seed", "1", "--time",
-            str(REFERENCE_TIMES * arguments.seconds), "-o", f"{scene}-reference.exr", "--quiet")
+    lab.run("render", scene, "--size", size, "--preset", "reference", "--seed", "1", "--time", str(seconds), "-o",
+            f"{scene}-reference.exr", "--quiet")
 
 
-def strip_picture(lab, scene, preset, stop, exposure):
+def strip_picture(lab, scene, size, preset, stop):
     """One picture of a strip; `stop` is --spp N or --time S."""
     name = f"{scene}-{preset}{stop[0]}"
-    lab.run("render", scene, "--preset", preset, *stop, "-o", f"{name}.exr", "--png", f"{name}.png", "--report",
-            f"{name}.json", "--exposure", str(exposure), "--quiet")
+    lab.run("render", scene, "--size", size, "--preset", preset, *stop, "-o", f"{name}.exr", "--png", f"{name}.png",
+            "--report", f"{name}.json", "--quiet")
     report = json.loads((lab.out / f"{name}.json").read_text())
     error = lab.json("compare", f"{name}.exr", f"{scene}-reference.exr")["rmse"]
-    pixels = math.prod(int(s) for s in report["settings"]["size"].split("x"))
+    pixels = math.prod(int(side) for side in size.split("x"))
     return {"png": (lab.out / f"{name}.png").read_bytes(), "preset": preset, "rmse": error,
             "spp": report["samples"]["total"] / pixels, "seconds": report["seconds"]["render"]}
 
@@ -168,11 +168,12 @@ def strips_html(lab, arguments):
     parts = ["<h2 id=\"presets\">The steps of the lecture in pictures</h2>"]
     meanings = lab.run("presets").splitlines()[::2]
     parts.append("<ul>" + "".join(f"<li>{html.escape(line)}</li>" for line in meanings) + "</ul>")
-    for scene, exposure in STRIPS:
-        make_reference(lab, scene, arguments)
+    for scene, aspect in STRIPS:
+        size = f"{round(aspect * arguments.height)}x{arguments.height}"
+        make_reference(lab, scene, size, REFERENCE_TIMES * arguments.seconds)
         for title, stop in ((f"{scene}, {arguments.seconds:g} seconds each", ("--time", str(arguments.seconds))),
                             (f"{scene}, {arguments.spp} samples per pixel each", ("--spp", str(arguments.spp)))):
-            pictures = [strip_picture(lab, scene, preset, stop, exposure) for preset in PRESETS]
+            pictures = [strip_picture(lab, scene, size, preset, stop) for preset in PRESETS]
             parts.append(strip_html(title, pictures))
     parts.append(f'<p class="quiet">RMSE against an image of the preset reference, of another seed, that took '
                  f"{REFERENCE_TIMES} times as long as the pictures of equal time.</p>")

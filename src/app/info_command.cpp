@@ -50,6 +50,32 @@ std::string cameraText(const Camera& camera) {
     return fmt::format("\"{}\": {}{}, at {}", camera.name, lens, aspect, vectorText(camera.position));
 }
 
+const char* kindName(PunctualKind kind) {
+    switch (kind) {
+    case PunctualKind::point:
+        return "point";
+    case PunctualKind::spot:
+        return "spot";
+    case PunctualKind::directional:
+        return "directional";
+    }
+    return "";
+}
+
+std::string lightText(const PunctualLight& light) {
+    const bool isDirectional = light.kind == PunctualKind::directional;
+    std::string text = fmt::format("\"{}\": {}, {} {}", light.name, kindName(light.kind),
+                                   vectorText(light.intensity), isDirectional ? "W/m^2" : "W/sr");
+    if (!isDirectional)
+        text += fmt::format(", at {}", vectorText(light.position));
+    if (light.kind != PunctualKind::point)
+        text += fmt::format(", towards {}", vectorText(light.direction));
+    if (light.kind == PunctualKind::spot)
+        text += fmt::format(", cone {:.4g} to {:.4g} degrees from its axis",
+                            glm::degrees(light.innerConeAngle), glm::degrees(light.outerConeAngle));
+    return text;
+}
+
 std::string listText(const std::vector<std::string>& names) {
     return names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "));
 }
@@ -59,6 +85,7 @@ void printText(const Scene& scene) {
     fmt::print("scene                {}\n", scene.source);
     fmt::print("triangles            {}\n", scene.triangleCount());
     fmt::print("emissive triangles   {}\n", emissiveTriangleCount(scene));
+    fmt::print("punctual lights      {}\n", scene.punctualLights.size());
     fmt::print("vertices             {}\n", vertexCount(scene));
     fmt::print("meshes               {}\n", scene.meshes.size());
     fmt::print("materials            {}\n", scene.materials.size());
@@ -70,6 +97,8 @@ void printText(const Scene& scene) {
     fmt::print("extensions ignored   {}\n", listText(scene.ignoredExtensions));
     for (size_t i = 0; i < scene.cameras.size(); ++i)
         fmt::print("camera {:<13} {}\n", i, cameraText(scene.cameras[i]));
+    for (size_t i = 0; i < scene.punctualLights.size(); ++i)
+        fmt::print("light {:<14} {}\n", i, lightText(scene.punctualLights[i]));
     for (const std::string& warning : scene.warnings)
         fmt::print("warning              {}\n", warning);
 }
@@ -96,10 +125,27 @@ nlohmann::ordered_json cameraJson(const Camera& camera) {
     return json;
 }
 
+nlohmann::ordered_json lightJson(const PunctualLight& light) {
+    nlohmann::ordered_json json = {
+        {"name", light.name}, {"kind", kindName(light.kind)}, {"intensity", vectorJson(light.intensity)}};
+    if (light.kind != PunctualKind::directional)
+        json["position"] = vectorJson(light.position);
+    if (light.kind != PunctualKind::point)
+        json["direction"] = vectorJson(light.direction);
+    if (light.kind == PunctualKind::spot) {
+        json["innerConeDegrees"] = glm::degrees(light.innerConeAngle);
+        json["outerConeDegrees"] = glm::degrees(light.outerConeAngle);
+    }
+    return json;
+}
+
 nlohmann::ordered_json sceneJson(const Scene& scene) {
     nlohmann::ordered_json cameras = nlohmann::ordered_json::array();
     for (const Camera& camera : scene.cameras)
         cameras.push_back(cameraJson(camera));
+    nlohmann::ordered_json lights = nlohmann::ordered_json::array();
+    for (const PunctualLight& light : scene.punctualLights)
+        lights.push_back(lightJson(light));
     return {
         {"scene", scene.source},
         {"triangles", scene.triangleCount()},
@@ -113,6 +159,7 @@ nlohmann::ordered_json sceneJson(const Scene& scene) {
         {"extensionsUsed", scene.extensionsUsed},
         {"extensionsIgnored", scene.ignoredExtensions},
         {"cameras", cameras},
+        {"punctualLights", lights},
         {"warnings", scene.warnings}};
 }
 

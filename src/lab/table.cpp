@@ -143,7 +143,7 @@ std::string tablesCsv(std::span<const Table> tables) {
     const std::vector<std::string> keys = keysOf(tables);
     std::string text = "table";
     for (const std::string& key : keys)
-        text += "," + csvField(key);
+        text.append(",").append(csvField(key)); // g++ 12 warns of an overflow in "," + std::string
     text += "\n";
     for (const Table& table : tables)
         for (const auto& row : table.rows)

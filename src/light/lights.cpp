@@ -1,8 +1,10 @@
+// Powers of lights, and the distribution over all of them.
 #include "light/lights.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -17,12 +19,23 @@ double meanOf(const glm::vec3& v) {
     return (double{v.x} + v.y + v.z) / 3.0;
 }
 
+// 1 - cos(angle) without the cancellation that would take the power, and so the light, from narrow cones.
+double versine(double angle) {
+    const double half = std::sin(0.5 * angle);
+    return 2.0 * half * half;
+}
+
+void requireFinite(double power, const std::string& light) {
+    if (!std::isfinite(power))
+        throw Error(fmt::format("cannot sample {}: its power is {} W", light, power));
+}
+
 // Fills `punctuals` with what has power, and appends the powers.
 void addPunctuals(const Scene& scene, Lights& lights) {
     for (size_t i = 0; i < scene.punctualLights.size(); ++i) {
-        const double power = powerOf(scene.punctualLights[i], scene.bounds);
-        if (!std::isfinite(power))
-            throw Error(fmt::format("cannot use light \"{}\": its power is {} W", scene.punctualLights[i].name, power));
+        const PunctualLight& light = scene.punctualLights[i];
+        const double power = powerOf(light, scene.bounds);
+        requireFinite(power, fmt::format("light {} '{}'", i, light.name));
         if (power <= 0.0)
             continue;
         lights.punctuals.push_back(static_cast<uint32_t>(i));
@@ -34,13 +47,13 @@ void addPunctuals(const Scene& scene, Lights& lights) {
 
 double powerOf(const PunctualLight& light, const Bounds& bounds) {
     const double intensity = meanOf(light.intensity);
-    const double inner = std::cos(light.innerConeAngle);
-    const double outer = std::cos(light.outerConeAngle);
+    const double inner = versine(light.innerConeAngle);
+    const double outer = versine(light.outerConeAngle);
     switch (light.kind) {
     case PunctualKind::point:
         return 4.0 * pi * intensity;
-    case PunctualKind::spot: // full inside, and a third of it between: the integral of a squared ramp
-        return 2.0 * pi * intensity * ((1.0 - inner) + (inner - outer) / 3.0);
+    case PunctualKind::spot: // full inside, and a third of it between: the mean of a squared ramp
+        return 2.0 * pi * intensity * (inner + (outer - inner) / 3.0);
     case PunctualKind::directional:
         return pi * bounds.radius() * bounds.radius() * intensity;
     }
@@ -58,7 +71,9 @@ Lights collectLights(const Scene& scene, const glm::vec3& environment, LightSele
     for (const Emitter& emitter : lights.emitters.list)
         lights.powers.push_back(emitter.power);
     addPunctuals(scene, lights);
-    if (const double power = environmentPower(environment, scene.bounds); power > 0.0) {
+    const double power = environmentPower(environment, scene.bounds);
+    requireFinite(power, "the environment");
+    if (power > 0.0) {
         lights.environment = static_cast<uint32_t>(lights.powers.size());
         lights.powers.push_back(power);
     }

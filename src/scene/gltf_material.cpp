@@ -20,6 +20,7 @@ const tinygltf::Value* findExtension(const tinygltf::Material& source, const cha
     return found == source.extensions.end() ? nullptr : &found->second;
 }
 
+// White where there is none.
 glm::vec3 colorIn(const tinygltf::Value& extension, const char* member, double largest,
                   FactorReader& factors) {
     if (!extension.Has(member))

@@ -53,6 +53,15 @@ void expectSound(const Scene& scene) {
             return std::max({t.x, t.y, t.z}) < mesh.positions.size();
         }));
     }
+    for (const PunctualLight& light : scene.punctualLights) {
+        EXPECT_TRUE(isFinite(light.position) && isFinite(light.intensity)) << light.name;
+        EXPECT_NEAR(glm::length(light.direction), 1.0f, 1e-5f) << light.name;
+        EXPECT_LE(light.innerConeAngle, light.outerConeAngle) << light.name;
+    }
+}
+
+void expectNear(const glm::vec3& a, const glm::vec3& b) {
+    EXPECT_NEAR(glm::length(a - b), 0.0f, 1e-5f) << a.x << " " << a.y << " " << a.z;
 }
 
 TEST_F(Assets, GeneratedMalformedFilesLoadOrFailAsTheirManifestSays) {
@@ -104,6 +113,70 @@ TEST_F(Assets, RealScenesLoadOrNameTheFeatureThatTheyRequire) {
         }
     }
     EXPECT_GT(files, 100);
+}
+
+TEST_F(Assets, LampHasItsFivePointLights) {
+    const Scene scene = importGltf(folder_ / "LightsPunctualLamp/glTF/LightsPunctualLamp.gltf");
+    ASSERT_EQ(scene.punctualLights.size(), 5u);
+    const PunctualLight& first = scene.punctualLights[0];
+    EXPECT_EQ(first.name, "Point");
+    EXPECT_EQ(first.kind, PunctualKind::point);
+    expectNear(first.intensity, 15.0f * glm::vec3(1.0f, 0.63187498f, 0.23909976f));
+    EXPECT_TRUE(std::any_of(scene.materials.begin(), scene.materials.end(), [](const Material& material) {
+        return material.transmission == 1.0f && !material.isSolid; // a shade, not a body
+    }));
+}
+
+TEST_F(Assets, FourSpotLightsShineTheWaysThatTheirNamesSay) {
+    const Scene scene = importGltf(folder_ / "SpotLights/four_spotlights.glb");
+    ASSERT_EQ(scene.punctualLights.size(), 4u);
+    const glm::vec3 ways[] = {{0, -1, 0}, {0, 1, 0}, {1, 0, 0}, {0, 0, -1}}; // Blender's z is glTF's y
+    for (size_t i = 0; i < 4; ++i) {
+        const PunctualLight& light = scene.punctualLights[i];
+        EXPECT_EQ(light.kind, PunctualKind::spot);
+        expectNear(light.direction, ways[i]);
+        expectNear(light.position, {0, 1, 0});
+        EXPECT_FLOAT_EQ(light.intensity.x, 54351.41306588226f);
+        EXPECT_FLOAT_EQ(light.outerConeAngle, 0.6544984579086304f);
+    }
+}
+
+TEST_F(Assets, SphereIsLitByOneLightOfEachKindAndASpotOfDefaults) {
+    const Scene scene = importGltf(folder_ / "draco-testdata/sphere_lights.gltf");
+    ASSERT_EQ(scene.punctualLights.size(), 4u); // in the order of the nodes
+    EXPECT_EQ(scene.punctualLights[0].kind, PunctualKind::spot);
+    EXPECT_EQ(scene.punctualLights[0].name, "Blue Lightsaber");
+    EXPECT_EQ(scene.punctualLights[1].kind, PunctualKind::directional);
+    expectNear(scene.punctualLights[1].intensity, glm::vec3(0.9f));
+    EXPECT_EQ(scene.punctualLights[2].kind, PunctualKind::spot);
+    EXPECT_EQ(scene.punctualLights[2].intensity, glm::vec3(1.0f));
+    EXPECT_EQ(scene.punctualLights[3].kind, PunctualKind::point);
+}
+
+TEST_F(Assets, SunIsOfUnitDirectionAndEndsTheStandInForLight) {
+    const Scene scene = importGltf(folder_ / "Classroom-Bitterli/Classroom-Bitterli.glb");
+    ASSERT_EQ(scene.punctualLights.size(), 1u);
+    EXPECT_EQ(scene.punctualLights[0].kind, PunctualKind::directional);
+    expectNear(scene.punctualLights[0].direction, {0.8658039f, -0.4167660f, 0.2769290f});
+    EXPECT_EQ(scene.environment, glm::vec3(0.0f));
+}
+
+TEST_F(Assets, ExtensionDeclaredWithoutLightsIsTolerated) {
+    const Scene scene = importGltf(folder_ / "CornellBox-nvpro/cornellBox.gltf");
+    EXPECT_TRUE(scene.punctualLights.empty());
+    EXPECT_EQ(scene.ignoredExtensions, std::vector<std::string>{"NV_materials_mdl"});
+}
+
+TEST_F(Assets, GlassOfTheLivingRoomIsSolidAndClear) {
+    const Scene scene = importGltf(folder_ / "LivingRoom-Bitterli/LivingRoom-Bitterli.glb");
+    const Material& glass = scene.materials.at(14);
+    EXPECT_EQ(glass.transmission, 1.0f);
+    EXPECT_TRUE(glass.isSolid);
+    EXPECT_EQ(std::count_if(scene.materials.begin(), scene.materials.end(),
+                            [](const Material& material) { return material.isSolid; }),
+              1);
+    for (const std::string& warning : scene.warnings)
+        EXPECT_EQ(warning.find("attenuation"), std::string::npos) << warning;
 }
 
 } // namespace

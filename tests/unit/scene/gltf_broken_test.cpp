@@ -163,7 +163,8 @@ TEST(BrokenGltf, WrongTypesNameTheProperty) {
     expectErrorAfter("/nodes/0/matrix", {1, 2}, "nodes[0].matrix has 2 elements instead of 16");
     expectErrorAfter("/nodes/0/scale", {1, 2, "3"}, "nodes[0].scale[2] is not a number");
     expectErrorAfter("/nodes/0/name", {1}, "nodes[0].name is not a string");
-    expectErrorAfter("/nodes/0/extensions", {1}, "\"extensions\" is not an object");
+    expectErrorAfter("/nodes/0/extensions", {1}, "nodes[0].extensions is not an object");
+    expectErrorAfter("/meshes/0/extensions", {1}, "\"extensions\" is not an object");
     expectErrorAfter("/meshes/0/primitives/0/attributes", 3, "attributes is not an object");
 }
 

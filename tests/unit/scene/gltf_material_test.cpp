@@ -100,6 +100,67 @@ TEST(GltfMaterial, FactorsOutOfRangeAreClampedWithAWarningThatNamesTheMaterial) 
     EXPECT_EQ(warningsWith(scene, "material 0 \"odd\""), 5);
 }
 
+Json glass(Json transmission, Json volume) {
+    return {{"name", "pane"},
+            {"extensions",
+             {{"KHR_materials_transmission", std::move(transmission)},
+              {"KHR_materials_volume", std::move(volume)}}}};
+}
+
+TEST(GltfMaterial, TransmissionIsOfAThinWallUnlessItHasThickness) {
+    const Material thin =
+        importMaterial({{"extensions", {{"KHR_materials_transmission", {{"transmissionFactor", 0.75}}}}}});
+    EXPECT_FLOAT_EQ(thin.transmission, 0.75f);
+    EXPECT_FALSE(thin.isSolid);
+    const Json factor = {{"transmissionFactor", 1}};
+    EXPECT_FALSE(importMaterial(glass(factor, {{"thicknessFactor", 0}})).isSolid);
+    EXPECT_TRUE(importMaterial(glass(factor, {{"thicknessFactor", 0.01}})).isSolid);
+    const Material plain = importMaterial(glass(Json::object(), Json::object()));
+    EXPECT_EQ(plain.transmission, 0.0f);
+    EXPECT_FALSE(plain.isSolid);
+}
+
+TEST(GltfMaterial, TransmissionAndThicknessOutOfRangeAreClampedWithAWarning) {
+    const Scene scene = triangleOf(glass({{"transmissionFactor", 2}}, {{"thicknessFactor", -1}})).import();
+    EXPECT_EQ(scene.materials.at(0).transmission, 1.0f);
+    EXPECT_FALSE(scene.materials.at(0).isSolid);
+    EXPECT_EQ(warningsWith(scene, "transmissionFactor was clamped to 0 .. 1: material 0 \"pane\""), 1);
+    EXPECT_EQ(warningsWith(scene, "thicknessFactor was clamped"), 1);
+}
+
+TEST(GltfMaterial, AttenuationIsNamedAsNotReadWhereItWouldBeSeen) {
+    const auto warnings = [](const Json& volume) {
+        return warningsWith(
+            triangleOf(glass({{"transmissionFactor", 1}}, volume)).import(),
+            "attenuation is not read yet, these materials are shown clear: material 0 \"pane\"");
+    };
+    const Json green = {0.1, 0.9, 0.1};
+    EXPECT_EQ(warnings({{"thicknessFactor", 1}, {"attenuationDistance", 2}, {"attenuationColor", green}}), 1);
+    EXPECT_EQ(warnings({{"thicknessFactor", 1}, {"attenuationColor", green}}), 0); // at no finite distance
+    EXPECT_EQ(warnings({{"thicknessFactor", 1}, {"attenuationDistance", 2}}), 0);  // of white
+    EXPECT_EQ(warnings({{"attenuationDistance", 2}, {"attenuationColor", green}}), 0); // in a thin wall
+}
+
+TEST(GltfMaterial, GlassExtensionsAreCheckedLikeTheRest) {
+    const auto error = [](const Json& transmission, const Json& volume) {
+        return importError(triangleOf(glass(transmission, volume)));
+    };
+    const Json none = Json::object();
+    EXPECT_NE(error({{"transmissionFactor", "1"}}, none).find("transmissionFactor is not a number"),
+              std::string::npos);
+    EXPECT_NE(error(none, {{"thicknessFactor", true}}).find("thicknessFactor is not a number"),
+              std::string::npos);
+    EXPECT_NE(error(none, {{"attenuationDistance", {1}}}).find("attenuationDistance is not a number"),
+              std::string::npos);
+    EXPECT_NE(error(none, {{"attenuationColor", {1}}}).find("has 1 elements instead of 3"),
+              std::string::npos);
+    EXPECT_NE(error({{"transmissionTexture", {{"index", 4}}}}, none)
+                  .find("transmissionTexture.index is 4, but the file has 0 textures"),
+              std::string::npos);
+    EXPECT_NE(error(none, {{"thicknessTexture", {{"index", 4}}}}).find("thicknessTexture.index is 4"),
+              std::string::npos);
+}
+
 TEST(GltfMaterial, EmissiveFactorAboveOneIsTakenAsItIsWithAWarning) {
     const Scene scene = triangleOf({{"emissiveFactor", {17, 12, 4}}}).import();
     EXPECT_EQ(scene.materials.at(0).emission, glm::vec3(17, 12, 4));
