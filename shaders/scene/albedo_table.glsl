@@ -13,8 +13,10 @@ float albedoRowOf(float alpha) {
     return clamp(sqrt(alpha), 0.0, 1.0) * float(kAlbedoRoughnesses - 1u);
 }
 
+// Columns are even in the square root of the cosine: over nearly smooth surfaces the albedo changes within the last
+// degrees before the horizon.
 vec2 specularAlbedoTerms(float cosTheta, float alpha) {
-    const float x = clamp(cosTheta, 0.0, 1.0) * float(kAlbedoCosines - 1u);
+    const float x = sqrt(clamp(cosTheta, 0.0, 1.0)) * float(kAlbedoCosines - 1u);
     const float y = albedoRowOf(alpha);
     const uint column = min(uint(x), kAlbedoCosines - 2u);
     const uint row = min(uint(y), kAlbedoRoughnesses - 2u);

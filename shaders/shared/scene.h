@@ -62,7 +62,7 @@ SHARED_CONST uint kPunctualPoint = 0u;
 SHARED_CONST uint kPunctualSpot = 1u;
 SHARED_CONST uint kPunctualDirectional = 2u;
 
-// Directional albedo of the GGX lobe, tabulated over (cosine, roughness); a row ends with its cosine-weighted average.
+// Directional albedo of the GGX lobe, tabulated over (sqrt(cosine), roughness); a row ends with its cosine-weighted average.
 SHARED_CONST uint kAlbedoCosines = 64u;
 SHARED_CONST uint kAlbedoRoughnesses = 32u;
 SHARED_CONST uint kAlbedoRow = kAlbedoCosines + 1u;

@@ -13,13 +13,13 @@ namespace lavalight {
 
 struct BvhConfig {
     float triangleCost = 0.3f; // of a triangle's test relative to that of a node's four boxes
-    float splitBudget = 0.25f; // splitting large triangles may add this share of references
+    float splitBudget = 0.2f;  // splitting large triangles may add this share of references
     uint32_t threads = 0;      // 0: as many as there are cores; the tree does not depend on it
 };
 
 struct Bvh {
     std::vector<BvhNode> nodes;          // node 0 is the root; a node's inner children are neighbours
-    std::vector<uint32_t> leafTriangles; // triangle ids in leaf order; spatial splits repeat some
+    std::vector<uint32_t> leafTriangles; // triangle ids in leaf order; split triangles repeat
     uint32_t stackNeed = 0; // entries that the worst ray leaves on its stack; <= kTraversalStackSize
     Bounds bounds;          // of all triangles; both corners 0 without any
     double buildSeconds = 0.0;

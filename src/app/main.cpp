@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "app/bench_command.h"
 #include "app/compare_command.h"
 #include "app/devices_command.h"
 #include "app/info_command.h"
@@ -81,6 +82,7 @@ int parseAndRun(int argc, char** argv) {
         std::make_unique<InfoCommand>(app),
         std::make_unique<DevicesCommand>(app),
         std::make_unique<CompareCommand>(app),
+        std::make_unique<BenchCommand>(app),
     });
     try {
         app.parse(argc, argv);

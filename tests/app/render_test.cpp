@@ -121,9 +121,11 @@ TEST_F(Render, HeaderSaysHowTheImageCameToBe) {
     EXPECT_TRUE(keys.at("bias-ledger").starts_with("cut-paths: ")) << keys.at("bias-ledger");
 }
 
-TEST_F(Render, HeaderNamesTheDeviceThatDevicesNames) {
-    expectSuccess({"-o", "a.exr", "--device", "0"});
-    const json device = json::parse(runLavalight({"devices", "--json"}, folder_.path()).out).front();
+TEST_F(Render, HeaderNamesTheDeviceThatDevicesLists) {
+    const json devices = json::parse(runLavalight({"devices", "--json"}, folder_.path()).out);
+    const json device = *std::find_if(devices.begin(), devices.end(),
+                                      [](const json& candidate) { return candidate.at("refusals").empty(); });
+    expectSuccess({"-o", "a.exr", "--device", device.at("index").dump()});
     EXPECT_EQ(header("a.exr").at("device"), device.at("name"));
     EXPECT_EQ(header("a.exr").at("driver"), device.at("driver"));
 }

@@ -29,14 +29,14 @@ struct Answer { // as in the kernel
 
 class AlbedoTableTest : public DeviceTest {
   protected:
-    // The largest difference at grid places (column + shift, row + shift).
+    // The largest difference at places (column + shift, row + shift) of the grid.
     float largestError(float shift) {
         std::vector<Question> questions;
         for (uint32_t row = 2; row + 1 < kAlbedoRoughnesses; row += 4)
             for (uint32_t column = 1; column + 1 < kAlbedoCosines; column += 5) {
                 const float roughness = (static_cast<float>(row) + shift) / (kAlbedoRoughnesses - 1);
-                questions.push_back(
-                    {(static_cast<float>(column) + shift) / (kAlbedoCosines - 1), roughness * roughness});
+                const float root = (static_cast<float>(column) + shift) / (kAlbedoCosines - 1);
+                questions.push_back({root * root, roughness * roughness});
             }
         const gpu::Buffer table = makeAlbedoTable(device());
         gpu::ResourceTable resources;
@@ -61,7 +61,7 @@ TEST_F(AlbedoTableTest, EntriesAreTheIntegralOfTheLobe) {
 }
 
 TEST_F(AlbedoTableTest, InterpolationBetweenEntriesIsClose) {
-    EXPECT_LT(largestError(0.5f), 0.012f); // worst at grazing angles over nearly smooth surfaces
+    EXPECT_LT(largestError(0.5f), 7e-3f); // worst at grazing angles over nearly smooth surfaces
 }
 
 } // namespace

@@ -1,6 +1,6 @@
 #version 460
 // Directional albedo of a material by Monte Carlo: sums over batches of BSDF samples.
-#include "lib/random.glsl"
+#include "lib/sampler.glsl"
 #include "scene/material.glsl"
 
 const uint kBatch = 1024u;
@@ -16,9 +16,11 @@ void main() {
     const uint batch = gl_GlobalInvocationID.x;
     if (batch >= means.length())
         return;
-    const Surface s = surfaceOf(fetchMaterial(material));
+    const Surface s = surfaceOf(fetchMaterial(material), true);
     vec3 sum = vec3(0.0);
-    for (uint i = 0u; i < kBatch; ++i)
-        sum += sampleBsdf(s, wo, sample3D(SampleKey(4u, batch, i, material), kDimensionBsdf)).weight;
+    for (uint i = 0u; i < kBatch; ++i) {
+        const SampleKey key = SampleKey(4u, batch, i, material);
+        sum += sampleBsdf(s, wo, sample2D(key, kDimensionBsdf), sample1D(key, kDimensionLobe)).weight;
+    }
     means[batch] = vec4(sum / float(kBatch), 0.0);
 }

@@ -70,8 +70,8 @@ std::vector<TestMaterial> allMaterials() {
 }
 
 TEST_F(BsdfEnergyTest, NoSurfaceReflectsMoreThanItReceives) {
-    // The coupling reads tabulated albedos: interpolation is off by up to 0.002 (test of the table below).
-    constexpr double interpolation = 0.002;
+    // The coupling reads tabulated albedos, which interpolation puts off by up to 0.007 (tests of the table).
+    constexpr double interpolation = 0.007;
     forEachAlbedo(allMaterials(), [](const TestMaterial&, float, const Albedo& albedo) {
         EXPECT_LE(largest(albedo.mean), 1.0 + interpolation + 4.0 * albedo.standardError);
     });
@@ -91,7 +91,7 @@ TEST_F(BsdfEnergyTest, WhiteDielectricReflectsEverything) {
     for (const TestMaterial& material : allMaterials())
         if (material.name.starts_with("white dielectric") || material.name == "smooth white dielectric")
             whites.push_back(material);
-    ASSERT_EQ(whites.size(), 4u);
+    ASSERT_EQ(whites.size(), 5u);
     forEachAlbedo(whites, [](const TestMaterial&, float, const Albedo& albedo) {
         EXPECT_NEAR(albedo.mean.x, 1.0, 0.01 + 4.0 * albedo.standardError);
     });

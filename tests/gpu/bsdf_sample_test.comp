@@ -1,6 +1,6 @@
 #version 460
 // Samples of the whole BSDF of a material, with what eval and pdf say about the same directions.
-#include "lib/random.glsl"
+#include "lib/sampler.glsl"
 #include "scene/material.glsl"
 
 struct Answer {
@@ -23,9 +23,9 @@ void main() {
     const uint i = gl_GlobalInvocationID.x;
     if (i >= answers.length())
         return;
-    const Surface s = surfaceOf(fetchMaterial(material));
-    const vec3 u = sample3D(SampleKey(3u, i, material, 1u), kDimensionBsdf);
-    const BsdfSample drawn = sampleBsdf(s, wo, u);
+    const Surface s = surfaceOf(fetchMaterial(material), true);
+    const SampleKey key = SampleKey(3u, i, material, 1u);
+    const BsdfSample drawn = sampleBsdf(s, wo, sample2D(key, kDimensionBsdf), sample1D(key, kDimensionLobe));
     answers[i] =
         Answer(drawn.wi, drawn.pdf, drawn.weight, pdfBsdf(s, wo, drawn.wi), evalBsdf(s, wo, drawn.wi), 0.0);
 }

@@ -25,6 +25,6 @@ void main() {
     if (i >= answers.length())
         return;
     const Question q = questions[i];
-    const Surface s = surfaceOf(fetchMaterial(q.material));
+    const Surface s = surfaceOf(fetchMaterial(q.material), true);
     answers[i] = Answer(evalBsdf(s, q.wo, q.wi), pdfBsdf(s, q.wo, q.wi), evalBsdf(s, q.wi, q.wo), 0.0);
 }

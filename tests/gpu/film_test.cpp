@@ -50,7 +50,7 @@ class FilmTest : public DeviceTest {
         }
     }
     static std::vector<Path> wave(const glm::vec3& radiance) {
-        return std::vector<Path>(kPixels, {glm::vec3(1.0f), 0.0f, radiance, 0});
+        return std::vector<Path>(kPixels, {glm::vec3(1.0f), 0.0f, radiance, 1.0f});
     }
 };
 
@@ -106,18 +106,6 @@ TEST_F(FilmTest, SumsBeyondTheRangeSaturateAndAreCounted) {
     accumulate(film, {paths});
     EXPECT_EQ(film.readTallies().saturatedSums, 3u);
     EXPECT_GT(film.resolve().radiance.pixels[7].x, 1e14f);
-}
-
-TEST_F(FilmTest, PathsThatWereCutAreCountedWithTheirThroughput) {
-    const Film film(device(), kWidth, kHeight, 0);
-    std::vector<Path> paths = wave(glm::vec3(1.0f));
-    paths[3].isCut = 1;
-    paths[3].throughput = {0.3f, 0.6f, 0.9f};
-    paths[4].isCut = 1;
-    paths[4].throughput = glm::vec3(0.2f);
-    accumulate(film, {paths});
-    EXPECT_EQ(film.readTallies().cutPaths, 2u);
-    EXPECT_NEAR(film.readTallies().cutThroughput, 0.4, 1e-4);
 }
 
 } // namespace

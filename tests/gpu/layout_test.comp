@@ -21,23 +21,26 @@ layout(set = 0, binding = 28, std430) writeonly buffer BvhNodeOut { BvhNode bvhN
 layout(set = 0, binding = 29, std430) writeonly buffer LeafTriangleOut { LeafTriangle leafTriangle[]; };
 layout(set = 0, binding = 30, std430) writeonly buffer TriangleNormalsOut { TriangleNormals normals[]; };
 layout(set = 0, binding = 31, std430) writeonly buffer MaterialRecordOut { MaterialRecord material[]; };
-layout(set = 0, binding = 32, std430) writeonly buffer EmitterRecordOut { EmitterRecord emitter[]; };
+layout(set = 0, binding = 32, std430) writeonly buffer LightRecordOut { LightRecord light[]; };
+layout(set = 0, binding = 34, std430) writeonly buffer PunctualRecordOut { PunctualRecord punctual[]; };
 layout(set = 0, binding = 33, std430) writeonly buffer TracedHitOut { TracedHit tracedHit[]; };
 
 void main() {
     ray[1] = Ray(vec3(1, 2, 3), 4u, vec3(5, 6, 7), 8);
     hit[1] = Hit(1, 2u, vec2(3, 4));
-    path[1] = Path(vec3(1, 2, 3), 4, vec3(5, 6, 7), 8u);
+    path[1] = Path(vec3(1, 2, 3), 4, vec3(5, 6, 7), 8);
     shadowRay[1] = ShadowRay(vec3(1, 2, 3), 4u, vec3(5, 6, 7), 8u, vec3(9, 10, 11), 12);
     bounceCounters[1] = BounceCounters(1u, 2u);
     dispatchSize[1] = DispatchSize(1u, 2u, 3u, 4u);
     waveRange[1] = WaveRange(1u, 2u, 3u, 4u, 5u, 6u);
     frameParameters[1] = FrameParameters(vec3(1, 2, 3), 4u, vec3(5, 6, 7), 8u, vec3(9, 10, 11), 12u,
-                                         vec3(13, 14, 15), 16u, vec3(17, 18, 19), 20u, 21u, 22u, 23u, 24u);
+                                         vec3(13, 14, 15), 16u, vec3(17, 18, 19), 20u, vec3(21, 22, 23), 24, 25u, 26u, 27u,
+                                         28, 29, 30u, 31u, 32u);
     normals[1] = TriangleNormals(1u, 2u, 3u, 4u);
     tracedHit[1] = TracedHit(1, 2u);
     bvhNode[1] = loadNode(1u);
     leafTriangle[1] = loadLeafTriangle(1u);
     material[1] = fetchMaterial(1u);
-    emitter[1] = fetchEmitter(1u);
+    light[1] = fetchLight(1u);
+    punctual[1] = fetchPunctual(1u);
 }

@@ -27,15 +27,17 @@ const ShadowRay kShadowRay{{1, 2, 3}, 4, {5, 6, 7}, 8, {9, 10, 11}, 12};
 const BounceCounters kBounceCounters{1, 2};
 const DispatchSize kDispatchSize{1, 2, 3, 4};
 const WaveRange kWaveRange{1, 2, 3, 4, 5, 6};
-const FrameParameters kFrameParameters{{1, 2, 3},    4,  {5, 6, 7}, 8,  {9, 10, 11}, 12, {13, 14, 15}, 16,
-                                       {17, 18, 19}, 20, 21,        22, 23,          24};
+const FrameParameters kFrameParameters{{1, 2, 3},    4,  {5, 6, 7},    8,  {9, 10, 11}, 12, {13, 14, 15}, 16,
+                                       {17, 18, 19}, 20, {21, 22, 23}, 24, 25,          26, 27,           28,
+                                       29,           30, 31,           32};
 const TriangleNormals kTriangleNormals{1, 2, 3, 4};
 const TracedHit kTracedHit{1, 2};
 // Loaded through texel buffers; what no kernel loads is 0.
 const BvhNode kBvhNode{{1, 2, 3}, 4, {5, 6, 7, 8}, {9, 10, 11, 12, 13, 14}, {0, 0}};
 const LeafTriangle kLeafTriangle{{1, 2, 3}, 4, {5, 6, 7}, 8, {9, 10, 11}, 12};
-const MaterialRecord kMaterialRecord{{1, 2, 3}, 4, {5, 6, 7}, 8, {9, 10, 11}, 12, 13, 14, 0, 0};
-const EmitterRecord kEmitterRecord{1, 2, 3, 4};
+const MaterialRecord kMaterialRecord{{1, 2, 3}, 4, {5, 6, 7}, 8, {9, 10, 11}, 12, 13, 14, 15, 0};
+const LightRecord kLightRecord{1, 2, 3, 4};
+const PunctualRecord kPunctualRecord{{1, 2, 3}, 4, {5, 6, 7}, 8, {9, 10, 11}, 12};
 
 class LayoutTest : public DeviceTest {
   protected:
@@ -85,7 +87,8 @@ TEST_F(LayoutTest, GlslAndCppLayOutEverySharedStructAlike) {
     input("bvhNodes", kBvhNode);
     input("leafTriangles", kLeafTriangle);
     input("materials", kMaterialRecord);
-    input("emitters", kEmitterRecord);
+    input("lights", kLightRecord);
+    input("punctuals", kPunctualRecord);
     const gpu::Buffer& ray = output<Ray>("RayOut");
     const gpu::Buffer& hit = output<Hit>("HitOut");
     const gpu::Buffer& path = output<Path>("PathOut");
@@ -99,7 +102,8 @@ TEST_F(LayoutTest, GlslAndCppLayOutEverySharedStructAlike) {
     const gpu::Buffer& node = output<BvhNode>("BvhNodeOut");
     const gpu::Buffer& triangle = output<LeafTriangle>("LeafTriangleOut");
     const gpu::Buffer& material = output<MaterialRecord>("MaterialRecordOut");
-    const gpu::Buffer& emitter = output<EmitterRecord>("EmitterRecordOut");
+    const gpu::Buffer& light = output<LightRecord>("LightRecordOut");
+    const gpu::Buffer& punctual = output<PunctualRecord>("PunctualRecordOut");
     runKernel();
     expectSecond(ray, kRay);
     expectSecond(hit, kHit);
@@ -114,7 +118,8 @@ TEST_F(LayoutTest, GlslAndCppLayOutEverySharedStructAlike) {
     expectSecond(node, kBvhNode);
     expectSecond(triangle, kLeafTriangle);
     expectSecond(material, kMaterialRecord);
-    expectSecond(emitter, kEmitterRecord);
+    expectSecond(light, kLightRecord);
+    expectSecond(punctual, kPunctualRecord);
 }
 
 } // namespace

@@ -1,29 +1,30 @@
 #version 460
-// Picks emitters and samples them as next-event estimation does.
-#include "lib/ray_offset.glsl"
+// Picks lights and samples them as next-event estimation does.
+#include "lib/sampler.glsl"
 #include "scene/light.glsl"
 
 struct Answer {
     vec3 wi;
     float pdf;
-    vec3 emission;
-    uint emitter;
+    vec3 radiance;
+    uint light;
     float pmf;
+    float isDelta;
 };
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 21, std430) writeonly buffer Out { Answer answers[]; };
 layout(push_constant) uniform Push {
-    vec3 from;
-    uint emitterCount;
+    FrameParameters frame;
 };
 
 void main() {
     const uint i = gl_GlobalInvocationID.x;
     if (i >= answers.length())
         return;
-    const uvec4 bits = sampleBits(SampleKey(5u, i, 0u, 1u), kDimensionLight);
-    const uint emitter = pickEmitter(bits.z, emitterCount);
-    const LightSample light = sampleLight(from, bits, emitterCount);
-    answers[i] = Answer(light.wi, light.pdf, light.emission, emitter, emitterPmf(emitter));
+    const SampleKey key = SampleKey(5u, i, 0u, 1u);
+    const uint bits = sampleBits1D(key, kDimensionLightPick);
+    const uint light = pickLight(bits, frame.lightCount);
+    const LightSample drawn = sampleLight(frame, frame.cameraPosition, bits, sample2D(key, kDimensionLightPoint));
+    answers[i] = Answer(drawn.wi, drawn.pdf, drawn.radiance, light, lightPmf(light), drawn.isDelta ? 1.0 : 0.0);
 }

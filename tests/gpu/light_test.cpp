@@ -1,12 +1,13 @@
 // Emitters are picked with the probabilities that their pmf says, and sampled with the density that is
 // returned.
 #include <cmath>
+#include <numeric>
 #include <vector>
 
 #include <glm/glm.hpp>
 #include <gtest/gtest.h>
 
-#include "light/emitters.h"
+#include "light/lights.h"
 #include "render/gpu_scene.h"
 #include "support/chi_square.h"
 #include "support/random_numbers.h"
@@ -20,14 +21,10 @@ namespace {
 struct alignas(16) Answer { // as in the kernel
     glm::vec3 wi;
     float pdf;
-    glm::vec3 emission;
-    uint32_t emitter;
+    glm::vec3 radiance;
+    uint32_t light;
     float pmf;
-};
-
-struct Push { // as in the kernel
-    glm::vec3 from;
-    uint32_t emitterCount;
+    float isDelta;
 };
 
 constexpr size_t kSamples = 400000;
@@ -63,28 +60,35 @@ double solidAngle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c)
 class LightTest : public DeviceTest {
   protected:
     std::vector<Answer> sample(const Scene& scene, const glm::vec3& from) {
-        const GpuScene gpuScene(device(), scene);
+        const GpuScene gpuScene(device(), scene, scene.environment, LightSelection::power);
         gpu::ResourceTable resources;
         gpuScene.addTo(resources);
         KernelRunner runner(device(), test_kernels::find("light_test"), resources);
-        return runner.generate<Answer>(kSamples, Push{from, gpuScene.emitterCount()});
+        FrameParameters frame{};
+        frame.cameraPosition = from;
+        frame.lightCount = gpuScene.lightCount();
+        frame.environment = scene.environment;
+        frame.sceneCenter = scene.bounds.center();
+        frame.sceneRadius = scene.bounds.radius();
+        return runner.generate<Answer>(kSamples, frame);
     }
 };
 
-TEST_F(LightTest, EmittersArePickedByTheirPmf) {
+TEST_F(LightTest, LightsArePickedByTheirPmf) {
     const Scene scene = scatteredLights(100);
-    const Emitters emitters = findEmitters(scene);
-    std::vector<uint32_t> counts(emitters.list.size());
+    const Lights lights = collectLights(scene, glm::vec3(0.0f), LightSelection::power);
+    const double totalPower = std::accumulate(lights.powers.begin(), lights.powers.end(), 0.0);
+    std::vector<uint32_t> counts(lights.table.size());
     for (const Answer& answer : sample(scene, glm::vec3(0.0f))) {
-        ASSERT_LT(answer.emitter, counts.size());
-        ASSERT_EQ(answer.pmf, emitters.table[answer.emitter].pmf);
-        ++counts[answer.emitter];
+        ASSERT_LT(answer.light, counts.size());
+        ASSERT_EQ(answer.pmf, lights.table[answer.light].pmf);
+        ++counts[answer.light];
     }
     std::vector<double> byPmf;
     std::vector<double> byPower;
     for (size_t i = 0; i < counts.size(); ++i) {
-        byPmf.push_back(double{emitters.table[i].pmf} * kSamples);
-        byPower.push_back(emitters.list[i].power / emitters.totalPower * kSamples);
+        byPmf.push_back(double{lights.table[i].pmf} * kSamples);
+        byPower.push_back(lights.powers[i] / totalPower * kSamples);
     }
     EXPECT_GT(chiSquare(counts, byPmf).pValue, kLeastPValue);
     EXPECT_GT(chiSquare(counts, byPower).pValue, kLeastPValue);
@@ -104,7 +108,7 @@ TEST_F(LightTest, EmissionOverPdfIntegratesToRadianceTimesSolidAngle) {
     double squares = 0.0;
     for (const Answer& answer : sample(scene, from)) {
         ASSERT_NEAR(glm::length(answer.wi), 1.0f, 1e-5f);
-        const double value = answer.emission.x / answer.pdf;
+        const double value = answer.radiance.x / answer.pdf;
         sum += value;
         squares += value * value;
     }
@@ -116,7 +120,7 @@ TEST_F(LightTest, EmissionOverPdfIntegratesToRadianceTimesSolidAngle) {
 
 TEST_F(LightTest, SingleSidedEmittersDoNotShineBackwards) {
     for (const Answer& answer : sample(scatteredLights(8), {0.0f, 0.0f, 5.0f}))
-        ASSERT_EQ(answer.emission, glm::vec3(0.0f));
+        ASSERT_EQ(answer.radiance, glm::vec3(0.0f));
 }
 
 } // namespace

@@ -1,6 +1,6 @@
 #version 460
-// The random words of given keys.
-#include "lib/random.glsl"
+// The pairs of sample words of given keys.
+#include "lib/sampler.glsl"
 
 struct Key {
     uint seed, pixel, index, vertex, dimension;
@@ -8,12 +8,12 @@ struct Key {
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0, std430) readonly buffer In { Key keys[]; };
-layout(set = 0, binding = 1, std430) writeonly buffer Out { uvec4 words[]; };
+layout(set = 0, binding = 1, std430) writeonly buffer Out { uvec2 words[]; };
 
 void main() {
     const uint i = gl_GlobalInvocationID.x;
     if (i >= words.length())
         return;
-    const Key key = keys[i];
-    words[i] = sampleBits(SampleKey(key.seed, key.pixel, key.index, key.vertex), key.dimension);
+    const SampleKey key = SampleKey(keys[i].seed, keys[i].pixel, keys[i].index, keys[i].vertex);
+    words[i] = sampleBits2D(key, keys[i].dimension);
 }

@@ -9,5 +9,5 @@ layout(set = 0, binding = 1, std430) writeonly buffer Out { float numbers[]; };
 void main() {
     const uint i = gl_GlobalInvocationID.x;
     if (i < numbers.length())
-        numbers[i] = bitsToUnit(uvec3(words[i])).x;
+        numbers[i] = bitsToUnit(words[i]);
 }

@@ -1,4 +1,4 @@
-// Roulette kills by throughput, never before its first vertex, never where it is off, and never not at all.
+// Each kind of roulette goes by what its name says, and by nothing else.
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -12,38 +12,50 @@
 namespace lavalight::test {
 namespace {
 
-struct alignas(16) Question { // as in the kernel
-    glm::vec3 throughput;
+struct Question { // as in the kernel
+    glm::vec3 color;
     uint32_t kind;
-    uint32_t vertex;
-    uint32_t firstVertex;
 };
 
 class RouletteTest : public DeviceTest {
   protected:
-    float survival(const Question& question) {
+    // x: by albedo, y: by throughput.
+    glm::vec2 survival(const glm::vec3& color, uint32_t kind) {
         return KernelRunner(device(), test_kernels::find("roulette_test"))
-            .map<float>(std::vector<Question>{question})
+            .map<glm::vec2>(std::vector<Question>{{color, kind}})
             .front();
     }
 };
 
-TEST_F(RouletteTest, PathsSurviveByTheirLargestThroughput) {
-    EXPECT_EQ(survival({{0.1f, 0.5f, 0.2f}, kRouletteThroughput, 3, 3}), 0.5f);
-    EXPECT_EQ(survival({{0.7f, 0.0f, 0.0f}, kRouletteThroughput, 9, 3}), 0.7f);
-    EXPECT_EQ(survival({{0.0f, 0.0f, 0.01f}, kRouletteThroughput, 3, 1}), 0.01f);
+TEST_F(RouletteTest, ThroughputGoesByTheLargestChannel) {
+    EXPECT_EQ(survival({0.1f, 0.5f, 0.2f}, kRouletteThroughput), glm::vec2(1.0f, 0.5f));
+    EXPECT_EQ(survival({0.0f, 0.0f, 0.01f}, kRouletteThroughput), glm::vec2(1.0f, 0.01f));
 }
 
 TEST_F(RouletteTest, SomePathsDieHoweverMuchTheyCarry) {
     for (const float throughput : {0.99f, 1.0f, 50.0f}) {
-        EXPECT_LT(survival({glm::vec3(throughput), kRouletteThroughput, 3, 3}), 1.0f);
-        EXPECT_GE(survival({glm::vec3(throughput), kRouletteThroughput, 3, 3}), 0.9f);
+        EXPECT_LT(survival(glm::vec3(throughput), kRouletteThroughput).y, 1.0f);
+        EXPECT_GE(survival(glm::vec3(throughput), kRouletteThroughput).y, 0.9f);
     }
 }
 
-TEST_F(RouletteTest, NoPathDiesBeforeTheFirstVertexOrWithRouletteOff) {
-    EXPECT_EQ(survival({glm::vec3(0.01f), kRouletteThroughput, 2, 3}), 1.0f);
-    EXPECT_EQ(survival({glm::vec3(0.01f), kRouletteOff, 3, 3}), 1.0f);
+TEST_F(RouletteTest, ConstantIsTheSettingsProbability) {
+    EXPECT_EQ(survival(glm::vec3(0.9f), kRouletteConstant), glm::vec2(0.3f, 1.0f));
+}
+
+TEST_F(RouletteTest, MeanAlbedoStaysBetweenOneTenthAndNineTenths) {
+    EXPECT_NEAR(survival({0.2f, 0.4f, 0.9f}, kRouletteMeanAlbedo).x, 0.5f, 1e-6f);
+    EXPECT_EQ(survival(glm::vec3(1.0f), kRouletteMeanAlbedo), glm::vec2(0.9f, 1.0f));
+    EXPECT_EQ(survival(glm::vec3(0.0f), kRouletteMeanAlbedo), glm::vec2(0.1f, 1.0f));
+}
+
+TEST_F(RouletteTest, MaxAlbedoIsTheLargestChannelAndMayBeOne) {
+    EXPECT_EQ(survival({0.2f, 0.4f, 0.7f}, kRouletteMaxAlbedo), glm::vec2(0.7f, 1.0f));
+    EXPECT_EQ(survival({0.2f, 1.5f, 0.7f}, kRouletteMaxAlbedo), glm::vec2(1.0f, 1.0f));
+}
+
+TEST_F(RouletteTest, OffKillsNothing) {
+    EXPECT_EQ(survival(glm::vec3(0.01f), kRouletteOff), glm::vec2(1.0f, 1.0f));
 }
 
 } // namespace

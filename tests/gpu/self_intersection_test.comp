@@ -1,7 +1,7 @@
 #version 460
 // Follows rays to their first hit and starts two more there: one away from the surface, one through it.
 #include "lib/onb.glsl"
-#include "lib/random.glsl"
+#include "lib/sampler.glsl"
 #include "scene/interaction.glsl"
 #include "scene/traverse.glsl"
 
@@ -40,7 +40,7 @@ void main() {
         return;
     }
     const Interaction surface = makeInteraction(hit, -ray.direction);
-    const vec3 u = sample3D(SampleKey(1u, i, 0u, 1u), kDimensionBsdf);
-    const vec3 direction = hemisphereDirection(u.xy, surface.ng);
+    const vec2 u = sample2D(SampleKey(1u, i, 0u, 1u), kDimensionBsdf);
+    const vec3 direction = hemisphereDirection(u, surface.ng);
     answers[i] = Answer(hit.t, firstHit(surface, direction), firstHit(surface, -direction));
 }

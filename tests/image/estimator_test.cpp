@@ -19,7 +19,7 @@ struct Variant {
 
 // The other seed keeps the two images independent, as the Z-test supposes.
 EstimatorSettings withOtherSeed() {
-    EstimatorSettings settings;
+    EstimatorSettings settings = imageSettings(1, 1, 1).estimator;
     settings.seed = 1;
     return settings;
 }
@@ -41,6 +41,24 @@ Variant withRoulette(const char* name, Roulette roulette, uint32_t start) {
 Variant withoutNee() {
     Variant variant{"withoutNee", withOtherSeed(), 256};
     variant.settings.nextEventEstimation = false;
+    return variant;
+}
+
+Variant withHemisphere(const char* name, Hemisphere hemisphere) {
+    Variant variant{name, withOtherSeed(), 128};
+    variant.settings.hemisphere = hemisphere;
+    return variant;
+}
+
+Variant withSelection(const char* name, LightSelection selection) {
+    Variant variant{name, withOtherSeed(), 128};
+    variant.settings.lightSelection = selection;
+    return variant;
+}
+
+Variant withSurvivalInMis(const char* name, Roulette roulette) {
+    Variant variant = withRoulette(name, roulette, 1);
+    variant.settings.misSurvival = true;
     return variant;
 }
 
@@ -66,7 +84,7 @@ class Estimator : public DeviceTest, public testing::WithParamInterface<Variant>
 };
 
 TEST_P(Estimator, KeepsTheMeanOfTheCornellBox) {
-    compareOn(loadScene("cornell-box"), EstimatorSettings());
+    compareOn(loadScene("cornell-box"), imageSettings(1, 1, 1).estimator);
 }
 
 // Metal and glossy dielectric under two lights of unequal size: weights between lobes and light samples
@@ -85,7 +103,32 @@ TEST_P(Estimator, KeepsTheMeanOfGlossySurfaces) {
                             .add(rectangle({2, 2, 1}, {0.2f, 0, 0}, {0, 0, 0.2f}), light({20, 10, 5}))
                             .camera(lookAt({2, 3, 5}, {0, 0.5f, 0}, 0.7f))
                             .build();
-    compareOn(scene, EstimatorSettings());
+    compareOn(scene, imageSettings(1, 1, 1).estimator);
+}
+
+// Rough glass, a rough thin wall and a rough metal under a small light, a lamp without size and a sky.
+TEST_P(Estimator, KeepsTheMeanOfGlassUnderLightsOfEveryKind) {
+    Material glass = lambert(glm::vec3(0.9f, 1.0f, 0.95f));
+    glass.transmission = 1.0f;
+    glass.isSolid = true;
+    glass.roughness = 0.3f;
+    Material pane = glass;
+    pane.isSolid = false;
+    pane.transmission = 0.7f;
+    Scene scene = SceneBuilder()
+                      .add(rectangle({0, 0, 0}, {0, 0, 4}, {4, 0, 0}), lambert({0.6f, 0.5f, 0.4f}))
+                      .add(ball({-0.8f, 1, 0}, 0.9f), glass)
+                      .add(rectangle({1.2f, 1, 0}, {0.7f, 0, 0.3f}, {0, 0.9f, 0}), pane)
+                      .add(rectangle({0, 4, 0}, {0.7f, 0, 0}, {0, 0, 0.7f}), light({8, 8, 9}))
+                      .environment({0.2f, 0.25f, 0.3f})
+                      .camera(lookAt({1, 2, 6}, {0, 0.9f, 0}, 0.6f))
+                      .build();
+    PunctualLight lamp;
+    lamp.position = {2.0f, 3.0f, 2.0f};
+    lamp.intensity = glm::vec3(4.0f);
+    if (GetParam().settings.nextEventEstimation) // nothing else finds a light without size
+        scene.punctualLights.push_back(lamp);
+    compareOn(scene, imageSettings(1, 1, 1).estimator);
 }
 
 INSTANTIATE_TEST_SUITE_P(Variants, Estimator,
@@ -93,6 +136,14 @@ INSTANTIATE_TEST_SUITE_P(Variants, Estimator,
                                          withMis("lightSamplesOnly", Mis::off),
                                          withRoulette("withoutRoulette", Roulette::off, 3),
                                          withRoulette("earlyRoulette", Roulette::throughput, 1),
+                                         withRoulette("constantRoulette", Roulette::constant, 2),
+                                         withRoulette("meanAlbedoRoulette", Roulette::meanAlbedo, 1),
+                                         withRoulette("maxAlbedoRoulette", Roulette::maxAlbedo, 1),
+                                         withSurvivalInMis("constantSurvivalInMis", Roulette::constant),
+                                         withSurvivalInMis("meanAlbedoSurvivalInMis", Roulette::meanAlbedo),
+                                         withSurvivalInMis("maxAlbedoSurvivalInMis", Roulette::maxAlbedo),
+                                         withHemisphere("uniformHemisphere", Hemisphere::uniform),
+                                         withSelection("uniformSelection", LightSelection::uniform),
                                          withoutNee()),
                          [](const auto& variant) { return std::string(variant.param.name); });
 

@@ -40,6 +40,7 @@ RenderSettings imageSettings(uint32_t width, uint32_t height, uint32_t samples) 
     settings.width = width;
     settings.height = height;
     settings.samples = samples;
+    settings.estimator.sampler = Sampler::independent; // the film's variance is that of independent samples
     return settings;
 }
 

@@ -7,8 +7,9 @@
 
 namespace lavalight::test {
 
-KernelRunner::KernelRunner(gpu::Device& device, gpu::KernelCode code, gpu::ResourceTable others)
-    : device_(&device), kernel_(device, std::move(code)), others_(std::move(others)) {}
+KernelRunner::KernelRunner(gpu::Device& device, gpu::KernelCode code, gpu::ResourceTable others,
+                           std::span<const gpu::SpecialisationConstant> constants)
+    : device_(&device), kernel_(device, std::move(code), constants), others_(std::move(others)) {}
 
 void KernelRunner::runBytes(std::span<const std::byte> in, std::span<std::byte> out, size_t invocations,
                             std::span<const std::byte> push) {

@@ -18,7 +18,8 @@ class KernelRunner {
   public:
     // `others` are the buffers besides In and Out, under the names of the kernel; they must outlive the
     // runner.
-    KernelRunner(gpu::Device& device, gpu::KernelCode code, gpu::ResourceTable others = {});
+    KernelRunner(gpu::Device& device, gpu::KernelCode code, gpu::ResourceTable others = {},
+                 std::span<const gpu::SpecialisationConstant> constants = {});
 
     // `count` outputs. `push` must be as long as the kernel's push constants.
     template <typename Out, typename In>

@@ -74,6 +74,7 @@ std::vector<TestMaterial> smoothMaterials() {
     return {{"smooth gold", metal({1.0f, 0.766f, 0.336f}, 0.0f)},
             {"smooth white metal", metal(white, 0.0f)},
             {"smooth white dielectric", dielectric(white, 0.0f)},
+            {"white dielectric, roughness 0.08", dielectric(white, 0.08f)},
             {"smooth white half metal", halfMetal(white, 0.0f)}};
 }
 

@@ -19,7 +19,7 @@ struct TestMaterial {
 
 // `alpha` = roughness^2 >= 0.04, so that lobes are wide enough for bins.
 [[nodiscard]] std::vector<TestMaterial> roughMaterials();
-// Mirrors alone and over a diffuse base.
+// Mirrors alone and over a diffuse base (metals first), and a surface too smooth for bins.
 [[nodiscard]] std::vector<TestMaterial> smoothMaterials();
 
 // Materials and the albedo table on the device, under the names of scene/material.glsl.

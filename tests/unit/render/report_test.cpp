@@ -13,7 +13,7 @@ namespace {
 using Json = nlohmann::json;
 
 TEST(Ledger, UnbiasedImageHasNoEntry) {
-    const auto ledger = makeLedger(Scene(), FilmTallies());
+    const auto ledger = makeLedger(Scene(), RenderSettings(), FilmTallies(), StopReason::samples);
     EXPECT_TRUE(ledger.empty());
     EXPECT_EQ(ledgerText(ledger), "none");
 }
@@ -21,7 +21,7 @@ TEST(Ledger, UnbiasedImageHasNoEntry) {
 TEST(Ledger, NamesEveryCauseWithItsFigures) {
     Scene scene;
     scene.ignoredExtensions = {"KHR_a", "EXT_b"};
-    const auto ledger = makeLedger(scene, {11, 22, 33, 0.25});
+    const auto ledger = makeLedger(scene, RenderSettings(), {11, 22, 33, 0.25}, StopReason::samples);
     ASSERT_EQ(ledger.size(), 4u);
     const std::map<std::string, std::string> figures{{"dropped-samples", "11"},
                                                      {"saturated-sums", "22"},
@@ -39,9 +39,24 @@ TEST(Ledger, NamesEveryCauseWithItsFigures) {
 TEST(Ledger, OneCauseIsOneEntry) {
     FilmTallies tallies;
     tallies.droppedSamples = 3;
-    const auto ledger = makeLedger(Scene(), tallies);
+    const auto ledger = makeLedger(Scene(), RenderSettings(), tallies, StopReason::samples);
     ASSERT_EQ(ledger.size(), 1u);
     EXPECT_EQ(ledgerText(ledger), ledger.front().cause + ": " + ledger.front().detail);
+}
+
+// What was asked for that biases the image, and lights that a setting cannot reach.
+TEST(Ledger, NamesBiasedSettings) {
+    Scene scene;
+    scene.punctualLights.resize(2);
+    RenderSettings settings;
+    settings.estimator.clampIndirect = 7.5f;
+    settings.estimator.nextEventEstimation = false;
+    settings.targetError = 0.125;
+    const std::string text = ledgerText(makeLedger(scene, settings, FilmTallies(), StopReason::targetError));
+    EXPECT_NE(text.find("clamp-indirect: indirect light was limited to 7.5"), std::string::npos) << text;
+    EXPECT_NE(text.find("unreachable-lights: --nee off cannot find 2"), std::string::npos) << text;
+    EXPECT_NE(text.find("stopped-on-estimate: the error estimate reached 0.125"), std::string::npos) << text;
+    EXPECT_EQ(makeLedger(scene, RenderSettings(), FilmTallies(), StopReason::time).size(), 0u);
 }
 
 RenderReport exampleReport() {
@@ -129,7 +144,7 @@ TEST(ExrHeader, SaysHowTheImageCameToBe) {
 
 TEST(ExrHeader, InterruptedRenderSaysSoWithItsOwnSampleCount) {
     RenderReport report = exampleReport();
-    report.isComplete = false;
+    report.stop = StopReason::interrupted;
     report.samples = 300;
     const auto header = headerOf(report);
     EXPECT_EQ(header.at("complete"), "no, interrupted");

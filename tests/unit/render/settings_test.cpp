@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
+#include "render/presets.h"
+#include "render/setting_names.h"
 #include "render/settings.h"
 
 namespace lavalight {
@@ -60,6 +62,48 @@ TEST(Settings, WhatIsOutOfRangeIsRefusedByItsOptionsName) {
     expectRefusal("--wave-size", [](RenderSettings& s) { s.waveSize = 4'000'001; });
     expectRefusal("--max-bounces", [](RenderSettings& s) { s.estimator.maxBounces = kMaxBounceLimit + 1; });
     expectRefusal("--roulette-start", [](RenderSettings& s) { s.estimator.rouletteStart = 0; });
+    expectRefusal("--roulette-probability", [](RenderSettings& s) { s.estimator.rouletteProbability = 0.0f; });
+    expectRefusal("--roulette-probability", [](RenderSettings& s) { s.estimator.rouletteProbability = 1.01f; });
+    expectRefusal("--time", [](RenderSettings& s) { s.seconds = -1.0; });
+    expectRefusal("--target-error", [](RenderSettings& s) { s.targetError = -0.1; });
+}
+
+TEST(Settings, MisSurvivalNeedsARouletteThatDoesNotKnowTheDirection) {
+    RenderSettings settings = goodSettings();
+    settings.estimator.misSurvival = true;
+    for (const Roulette roulette : {Roulette::throughput, Roulette::off}) {
+        settings.estimator.roulette = roulette;
+        EXPECT_TRUE(complaint(settings).starts_with("--mis-survival")) << complaint(settings);
+    }
+    for (const Roulette roulette : {Roulette::constant, Roulette::meanAlbedo, Roulette::maxAlbedo}) {
+        settings.estimator.roulette = roulette;
+        EXPECT_EQ(complaint(settings), "");
+    }
+}
+
+TEST(Presets, ChangeOneThingAStepAndEndAtTheDefaults) {
+    EXPECT_FALSE(findPreset("naive").settings.nextEventEstimation);
+    EXPECT_EQ(findPreset("naive").settings.hemisphere, Hemisphere::uniform);
+    EXPECT_EQ(findPreset("cosine").settings.hemisphere, Hemisphere::cosine);
+    EXPECT_TRUE(findPreset("nee").settings.nextEventEstimation);
+    EXPECT_EQ(findPreset("nee").settings.mis, Mis::off);
+    EXPECT_EQ(findPreset("mis").settings.mis, Mis::power);
+    EXPECT_EQ(findPreset("mis").settings.roulette, Roulette::off);
+    EXPECT_EQ(findPreset("roulette").settings.roulette, Roulette::throughput);
+    EXPECT_EQ(findPreset("reference").settings.sampler, EstimatorSettings().sampler);
+    EXPECT_EQ(presets().size(), 6u);
+}
+
+TEST(Presets, AnUnknownOneIsRefusedWithThoseThereAre) {
+    try {
+        (void)findPreset("best");
+        FAIL() << "no error";
+    } catch (const UsageError& error) {
+        const std::string message = error.what();
+        EXPECT_TRUE(message.starts_with("--preset")) << message;
+        for (const Preset& preset : presets())
+            EXPECT_NE(message.find(preset.name), std::string::npos) << message;
+    }
 }
 
 std::map<std::string, std::string> described(const RenderSettings& settings) {

@@ -1,0 +1,25 @@
+// `lavalight bench rays`: how fast rays are traced, beside Embree on the same rays.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "app/command.h"
+
+namespace lavalight {
+
+class BenchCommand : public Command {
+  public:
+    explicit BenchCommand(CLI::App& app);
+    // Prints Mrays/s of camera, bounce and shadow rays, ours and Embree's, one thread each.
+    [[nodiscard]] int run() override;
+
+  private:
+    std::string scene_;
+    std::string device_;
+    uint32_t rays_ = 1000000; // of the camera; the others start where these hit
+    uint32_t repeats_ = 5;
+    bool json_ = false;
+};
+
+} // namespace lavalight
