@@ -20,6 +20,8 @@ import matplotlib.pyplot as plt  # noqa: E402 (the backend is chosen first)
 PRESETS = ["naive", "cosine", "nee", "mis", "roulette", "reference"]
 STRIPS = [("cornell-box", 1.0), ("veach-mis", 4 / 3)]  # scene, width over height of its camera
 REFERENCE_TIMES = 12  # the image that errors are taken against gets so many times the time of a strip's
+COST_TITLES = {"efficiency": "efficiency (longer is better)", "variance": "variance of a sample",
+               "ratio": "variance over that of the first row (shorter is better)"}
 BLUE, ORANGE, GREY = "#2f6db3", "#d9822b", "#8a8f98"
 
 STYLE = """
@@ -83,7 +85,7 @@ def plot_estimators(table):
     """Estimates with two standard errors, and what a unit of accuracy costs beside the naive estimator."""
     rows = table["rows"][::-1]
     names = [row["estimator"] for row in rows]
-    cost = "efficiency" if all(row.get("efficiency") for row in rows) else "ratio"
+    cost = next((key for key in ("efficiency", "ratio") if all(row.get(key) is not None for row in rows)), "variance")
     figure, (left, right) = plt.subplots(1, 2, figsize=(10, 0.9 + 0.38 * len(rows)), sharey=True, layout="constrained")
     for exact in sorted({row["exact"] for row in rows if row["exact"] is not None}):
         left.axvline(exact, color=ORANGE, linewidth=1.5, label="exact")
@@ -99,8 +101,7 @@ def plot_estimators(table):
         right.set_xscale("log")
     right.bar_label(bars, [f" {v:.3g}" for v in values], fontsize=8)
     right.margins(x=0.2)
-    right.set_title("efficiency (longer is better)" if cost == "efficiency" else "variance by the naive one (shorter is better)",
-                    fontsize=10)
+    right.set_title(COST_TITLES[cost], fontsize=10)
     for axes in (left, right):
         axes.tick_params(labelsize=9)
         axes.spines[["top", "right"]].set_visible(False)

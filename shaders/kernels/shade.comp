@@ -45,8 +45,10 @@ float hitLightPdf(Interaction surface, Hit hit, Ray ray) {
                                                         hit.t * hit.t, dot(surface.ng, ray.direction));
 }
 
-float missLightPdf() {
-    return frame.environmentLight == kNoLight ? 0.0 : lightPmf(frame.environmentLight) * squareToSpherePdf();
+float missLightPdf(Ray ray) {
+    if (frame.environmentLight == kNoLight || kNee == 0u)
+        return 0.0;
+    return lightPmf(frame.environmentLight) * environmentPdf(ray.originCosine);
 }
 
 // n and ng must agree about the side of wi.
@@ -56,7 +58,7 @@ bool isSameSide(Vertex v, vec3 wi, float localZ) {
 
 // Picks a light and prepares its shadow ray; false: nothing to be had.
 bool nextEvent(Vertex v, vec3 throughput, out ShadowRay shadow) {
-    const LightSample light = sampleLight(frame, v.surface.p, sampleBits1D(v.key, kDimensionLightPick),
+    const LightSample light = sampleLight(frame, Receiver(v.surface.p, v.surface.n), sampleBits1D(v.key, kDimensionLightPick),
                                           sample2D(v.key, kDimensionLightPoint));
     const vec3 wi = toLocal(v.basis, light.wi);
     if (!isSameSide(v, light.wi, wi.z))
@@ -77,7 +79,7 @@ bool nextRay(Vertex v, inout Path path, out Ray ray) {
     const BsdfSample next =
         sampleBsdf(v.bsdf, v.wo, sample2D(v.key, kDimensionBsdf), sample1D(v.key, kDimensionLobe));
     const vec3 wi = toWorld(v.basis, next.wi);
-    ray = Ray(offsetOrigin(v.surface.p, v.surface.pError, v.surface.ng, wi), v.surface.triangle, wi, 0.0);
+    ray = Ray(offsetOrigin(v.surface.p, v.surface.pError, v.surface.ng, wi), v.surface.triangle, wi, next.wi.z);
     path.throughput *= next.weight;
     path.bsdfPdf = next.pdf * (kMisSurvival != 0u ? v.survival : 1.0);
     path.etaScale *= next.eta * next.eta;
@@ -122,7 +124,7 @@ void main() {
     bool wantsShadowRay = false;
 
     if (hit.t == kInfinity) {
-        const vec3 found = path.throughput * frame.environment * foundLightWeight(path.bsdfPdf, missLightPdf());
+        const vec3 found = path.throughput * frame.environment * foundLightWeight(path.bsdfPdf, missLightPdf(ray));
         path.radiance += clamped(found, bounce);
     } else {
         const Interaction surface = makeInteraction(hit, -ray.direction);

@@ -38,17 +38,6 @@ float squareToUniformHemispherePdf(float cosTheta) {
     return cosTheta > 0.0 ? 0.5 * kInvPi : 0.0;
 }
 
-vec3 squareToSphere(vec2 u) {
-    const float z = 1.0 - 2.0 * u.x;
-    const float r = sqrt(max(0.0, 1.0 - z * z));
-    const float phi = 2.0 * kPi * u.y;
-    return vec3(r * cos(phi), r * sin(phi), z);
-}
-
-float squareToSpherePdf() {
-    return 0.25 * kInvPi;
-}
-
 // Barycentrics (b1, b2) uniform over a triangle.
 // Heitz, "A Low-Distortion Map Between Triangle and Square", 2019.
 vec2 squareToTriangle(vec2 u) {

@@ -1,4 +1,5 @@
 // Lights: picking one, sampling it from a point, and the density with which that finds a direction.
+#include "lib/onb.glsl"
 #include "lib/random.glsl"
 #include "scene/punctual_light.glsl"
 #include "scene/triangle_light.glsl"
@@ -11,6 +12,12 @@ LightRecord fetchLight(uint index) {
     const uvec4 l = texelFetch(lights, int(index));
     return LightRecord(uintBitsToFloat(l.x), l.y, uintBitsToFloat(l.z), l.w);
 }
+
+// The point that light is sampled for.
+struct Receiver {
+    vec3 p;
+    vec3 n; // shading normal on the side of wo
+};
 
 // Probability of picking this light, for sampling and for MIS at BSDF hits alike.
 float lightPmf(uint light) {
@@ -27,31 +34,38 @@ uint pickLight(uint bits, uint lightCount) {
     return bitsToUnit(place) < record.probability ? column : record.alias;
 }
 
-// A constant environment is a sphere at infinity; `reach` is a distance beyond the scene.
-LightSample sampleEnvironment(vec3 from, vec2 u, vec3 radiance, float reach) {
+// A constant environment is sampled by the cosine around the receiver's normal, which leaves a diffuse surface no variance
+// but that of visibility. cosTheta: between normal and direction; what comes from behind is left to BSDF rays.
+float environmentPdf(float cosTheta) {
+    return squareToCosineHemispherePdf(cosTheta);
+}
+
+// `reach`: a distance beyond the scene.
+LightSample sampleEnvironment(Receiver receiver, vec2 u, vec3 radiance, float reach) {
+    const vec3 local = squareToCosineHemisphere(u);
     LightSample light;
-    light.wi = squareToSphere(u);
-    light.end = from + reach * light.wi;
+    light.wi = toWorld(makeBasis(receiver.n), local);
+    light.end = receiver.p + reach * light.wi;
     light.radiance = radiance;
-    light.pdf = squareToSpherePdf();
+    light.pdf = environmentPdf(local.z);
     light.isDelta = false;
     light.triangle = kNoTriangle;
     return light;
 }
 
-// Next-event estimation from the point `from`; frame.lightCount > 0. The pdf includes the pmf of the pick.
-LightSample sampleLight(FrameParameters frame, vec3 from, uint pickBits, vec2 u) {
+// Next-event estimation; frame.lightCount > 0. The pdf includes the pmf of the pick.
+LightSample sampleLight(FrameParameters frame, Receiver receiver, uint pickBits, vec2 u) {
     const LightRecord record = fetchLight(pickLight(pickBits, frame.lightCount));
     const uint kind = record.source >> kLightKindShift;
     const uint index = record.source & kLightIndexMask;
-    const float reach = 2.0 * (frame.sceneRadius + distance(from, frame.sceneCenter));
+    const float reach = 2.0 * (frame.sceneRadius + distance(receiver.p, frame.sceneCenter));
     LightSample light;
     if (kind == kLightTriangle)
-        light = sampleTriangleLight(from, u, index);
+        light = sampleTriangleLight(receiver.p, u, index);
     else if (kind == kLightPunctual)
-        light = samplePunctualLight(from, index, reach);
+        light = samplePunctualLight(receiver.p, index, reach);
     else
-        light = sampleEnvironment(from, u, frame.environment, reach);
+        light = sampleEnvironment(receiver, u, frame.environment, reach);
     light.pdf *= record.pmf;
     return light;
 }

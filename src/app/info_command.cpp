@@ -37,8 +37,9 @@ uint64_t geometryBytes(const Scene& scene) {
     return bytes;
 }
 
+// Adding 0 takes the sign from a minus zero, which turned directions often have.
 std::string vectorText(const glm::vec3& v) {
-    return fmt::format("({:.6g}, {:.6g}, {:.6g})", v.x, v.y, v.z);
+    return fmt::format("({:.6g}, {:.6g}, {:.6g})", v.x + 0.0f, v.y + 0.0f, v.z + 0.0f);
 }
 
 std::string cameraText(const Camera& camera) {

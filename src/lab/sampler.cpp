@@ -2,8 +2,10 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -12,7 +14,6 @@
 #include "lab/sample_kernel.h"
 #include "lab/theory.h"
 #include "render/renderer.h"
-#include "render/setting_names.h"
 
 namespace lavalight {
 namespace {

@@ -44,7 +44,6 @@ void collect(const Mesh& mesh, const Material& material, Emitters& emitters) {
             continue;
         emitters.emitterOfTriangle.back() = static_cast<uint32_t>(emitters.list.size());
         emitters.list.push_back({id, static_cast<float>(area), power});
-        emitters.totalPower += power;
     }
 }
 

@@ -18,7 +18,6 @@ struct Emitter {
 struct Emitters {
     std::vector<Emitter> list;
     std::vector<uint32_t> emitterOfTriangle; // per triangle of the scene: index into `list` or kNoEmitter
-    double totalPower = 0.0;                 // W
 };
 
 // Lists triangles of emissive materials whose area and power are positive. Throws Error, naming the material,

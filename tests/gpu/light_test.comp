@@ -25,6 +25,6 @@ void main() {
     const SampleKey key = SampleKey(5u, i, 0u, 1u);
     const uint bits = sampleBits1D(key, kDimensionLightPick);
     const uint light = pickLight(bits, frame.lightCount);
-    const LightSample drawn = sampleLight(frame, frame.cameraPosition, bits, sample2D(key, kDimensionLightPoint));
+    const LightSample drawn = sampleLight(frame, Receiver(frame.cameraPosition, vec3(0, 0, 1)), bits, sample2D(key, kDimensionLightPoint));
     answers[i] = Answer(drawn.wi, drawn.pdf, drawn.radiance, light, lightPmf(light), drawn.isDelta ? 1.0 : 0.0);
 }

@@ -9,6 +9,7 @@
 
 #include "light/lights.h"
 #include "render/gpu_scene.h"
+#include "shared/frame.h"
 #include "support/chi_square.h"
 #include "support/random_numbers.h"
 #include "support/run_kernel.h"
