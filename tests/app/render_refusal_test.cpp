@@ -122,7 +122,7 @@ TEST_F(RenderRefusal, EnvironmentsThatCannotBe) {
 TEST_F(RenderRefusal, OptionValuesThatCannotBe) {
     expectRefusal({"--mis", "best"}, kWrongUsage, "best not in {balance,off,power}");
     expectRefusal({"--mis", "1"}, kWrongUsage, "--mis"); // the number behind a name is no name
-    expectRefusal({"--roulette", "russian"}, kWrongUsage, "russian not in {off,throughput}");
+    expectRefusal({"--roulette", "russian"}, kWrongUsage, "russian not in {constant,max-albedo,mean-albedo,off,throughput}");
     expectRefusal({"--nee", "maybe"}, kWrongUsage, "--nee");
     expectRefusal({"--require-device", "tpu"}, kWrongUsage, "tpu not in {any,cpu,gpu}");
     for (const char* option :
