@@ -121,5 +121,17 @@ TEST_F(FixedPointTest, BordersAreExact) {
     expectExact(repeated);
 }
 
+// Fills words with ones, then adds the smallest unit: the carry runs through all of them.
+TEST_F(FixedPointTest, CarriesRunThroughFullWords) {
+    for (const int lowest : {kSumLowestExponent, kSquareLowestExponent}) {
+        const auto ones = [&](int first, int end) { // bits [first, end) above the lowest
+            return std::ldexp(1.0f, lowest + end) - std::ldexp(1.0f, lowest + first);
+        };
+        std::vector<float> values = {ones(40, 64), ones(16, 40), ones(0, 16), std::ldexp(1.0f, lowest)};
+        values.resize(kRun, 0.0f);
+        expectExact(values);
+    }
+}
+
 } // namespace
 } // namespace lavalight::test

@@ -60,8 +60,10 @@ TEST_F(MisTest, WeightsAreThoseOfTheHeuristics) {
 }
 
 TEST_F(MisTest, ATechniqueThatCannotFindThePathWeighsNothing) {
-    for (const uint32_t kind : {kMisPower, kMisBalance})
+    for (const uint32_t kind : {kMisPower, kMisBalance}) {
         EXPECT_EQ(ask({{0.0f, 2.0f, kind}}).front(), glm::vec2(0.0f, 1.0f));
+        EXPECT_EQ(ask({{0.0f, 0.0f, kind}}).front(), glm::vec2(0.0f));
+    }
 }
 
 TEST_F(MisTest, OffWeighsEveryTechniqueFully) {

@@ -121,6 +121,26 @@ TEST_F(TraverseTest, ShadowRaysAreBlockedWhereEmbreeBlocksThem) {
         << "of " << rays.size() << " rays with " << blocked << " blocked";
 }
 
+TEST_F(TraverseTest, ShadowRaysEndWhereTheirDirectionEnds) {
+    std::vector<ShadowRay> before;
+    std::vector<ShadowRay> beyond;
+    for (size_t i = 0; i < dense().cameraRays.size(); ++i) {
+        const Ray& ray = dense().cameraRays[i];
+        const TracedHit& hit = dense().cameraHits[i];
+        if (hit.triangle == kNoTriangle)
+            continue;
+        const auto reaching = [&](float share) {
+            return ShadowRay{ray.origin, kNoTriangle, share * hit.t * ray.direction, kNoTriangle, {}, 0.0f};
+        };
+        before.push_back(reaching(0.999f));
+        beyond.push_back(reaching(1.001f));
+    }
+    for (const uint32_t occluded : dense().tracer.occluded(before))
+        ASSERT_EQ(occluded, 0u);
+    for (const uint32_t occluded : dense().tracer.occluded(beyond))
+        ASSERT_EQ(occluded, 1u);
+}
+
 TEST_F(TraverseTest, ATriangleIsSkippedByItsId) {
     std::vector<Ray> rays = dense().cameraRays;
     for (size_t i = 0; i < rays.size(); ++i)

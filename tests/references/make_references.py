@@ -72,6 +72,15 @@ def write_exr(path, mean, variance, samples, notes):
     OpenEXR.File(header, channels).write(str(path))
 
 
+def describe_errors(mean, variance):
+    """Relative standard errors, channels together: quantiles over pixels that are not black; the image's."""
+    value, squares = mean.mean(axis=-1), variance.mean(axis=-1)
+    lit = value > 0
+    median, most = np.quantile(np.sqrt(squares[lit]) / value[lit], (0.5, 0.99))
+    whole = np.sqrt(squares.sum()) / value.sum()
+    return f"standard error of a pixel {median:.2%} (median), {most:.2%} (99 %), of the image {whole:.3%}"
+
+
 def make(source, target, reference):
     size, passes, spp = reference.size, reference.passes, reference.spp
     with tempfile.TemporaryDirectory() as folder:
@@ -84,9 +93,8 @@ def make(source, target, reference):
              "settings": f"path, {MAX_BOUNCES} bounces, box filter, independent sampler, "
                          f"seeds 0 to {passes - 1} with {spp} samples each"}
     write_exr(target, mean, variance, passes * spp, notes)
-    error = np.sqrt(variance.mean()) / mean.mean()
     print(f"{target}: {size[0]}x{size[1]}, {passes * spp} samples a pixel, mean {mean.mean(axis=(0, 1))}, "
-          f"standard error of a pixel {error:.2e} of the mean, {time.process_time() - start:.0f} s CPU")
+          f"{describe_errors(mean, variance)}, {time.process_time() - start:.0f} s CPU")
 
 
 def main():

@@ -1,6 +1,7 @@
 #include "support/closed_meshes.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <numbers>
 #include <utility>
@@ -51,6 +52,37 @@ ClosedMesh makeCube() {
     mesh.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
                       {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
     return mesh;
+}
+
+ClosedMesh makeGriddedCube(uint32_t cells) {
+    std::vector<glm::vec3> positions;
+    std::map<std::array<uint32_t, 3>, uint32_t> indices;
+    const auto vertex = [&](const std::array<uint32_t, 3>& place) {
+        const auto [found, isNew] = indices.try_emplace(place, static_cast<uint32_t>(positions.size()));
+        if (isNew)
+            positions.push_back(2.0f * glm::vec3(place[0], place[1], place[2]) / static_cast<float>(cells) -
+                                1.0f);
+        return found->second;
+    };
+    std::vector<glm::uvec3> triangles;
+    for (uint32_t face = 0; face < 6; ++face)
+        for (uint32_t cell = 0; cell < cells * cells; ++cell) {
+            const bool isUpper = face >= 3;
+            const auto corner = [&](uint32_t u, uint32_t v) {
+                std::array<uint32_t, 3> place{};
+                place[face % 3] = isUpper ? cells : 0;
+                place[(face + 1) % 3] =
+                    cell % cells + (isUpper ? u : v); // swapped below: fronts face outward
+                place[(face + 2) % 3] = cell / cells + (isUpper ? v : u);
+                return vertex(place);
+            };
+            const uint32_t a = corner(0, 0);
+            const uint32_t b = corner(1, 0);
+            const uint32_t c = corner(1, 1);
+            const uint32_t d = corner(0, 1);
+            triangles.insert(triangles.end(), {{a, b, c}, {a, c, d}});
+        }
+    return {std::move(positions), std::move(triangles)};
 }
 
 ClosedMesh makeIcosphere(uint32_t subdivisions) {

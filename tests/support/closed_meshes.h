@@ -19,6 +19,8 @@ struct ClosedMesh {
 
 // The cube [-1, 1]^3, two triangles a face.
 [[nodiscard]] ClosedMesh makeCube();
+// The same cube with `cells` x `cells` squares a face: edges lie in the planes between the boxes of a BVH.
+[[nodiscard]] ClosedMesh makeGriddedCube(uint32_t cells);
 // An icosahedron in the unit sphere, each triangle split in four `subdivisions` times: convex.
 [[nodiscard]] ClosedMesh makeIcosphere(uint32_t subdivisions);
 // Vertices moved along their radius by up to `amount` of it: every ray from the origin still hits once, not
