@@ -77,8 +77,8 @@ Table scene(gpu::Device& device, uint32_t seed) {
     Table table =
         rows.table("scene", "The scene large-small-light by light sampling alone, direct light only");
     table.notes.emplace_back(
-        "Power does not know distances: below the small light it is sampled too rarely, elsewhere the gain "
-        "outweighs that.");
+        "Power does not know distances: below the small light it is sampled too rarely, the large "
+        "one's gain elsewhere is measured to balance that here.");
     return table;
 }
 

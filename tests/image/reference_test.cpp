@@ -46,6 +46,22 @@ TEST_F(Reference, CornellBoxIsTheOneOfMitsuba) {
                       << writeDifference(ours.radiance, reference.radiance, 10.0f, "cornell-box");
 }
 
+// Refraction, total internal reflection, caustics and a rough metal. Light through the glass ball comes as rare bright
+// samples, so tiles of 16 pixels.
+TEST_F(Reference, GlassAndMetalBallsAreThoseOfMitsuba) {
+    const Rendering reference = readReference("cornell-glass.exr");
+    const RenderResult result =
+        renderScene(device(), loadScene("cornell-glass"), imageSettings(128, 128, 192));
+    EXPECT_EQ(countNonFinite(result.rendering.radiance), 0u);
+    EXPECT_EQ(result.tallies.droppedSamples, 0u);
+    const Rendering& ours = result.rendering;
+    EXPECT_LT(std::abs(relativeMeanDifference(ours.radiance, reference.radiance).overall), 0.005);
+    expectSameMean(ours, reference, 2 * kTile);
+    if (HasFailure())
+        ADD_FAILURE() << "difference times 10: "
+                      << writeDifference(ours.radiance, reference.radiance, 10.0f, "cornell-glass");
+}
+
 class Assets : public DeviceTest {
   protected:
     void SetUp() override {
