@@ -60,11 +60,28 @@ uint64_t totalOf(const std::vector<uint32_t>& counts) {
 void failOnValidation(const gpu::Device& device) {
     const std::vector<std::string> messages = device.validationMessages();
     if (!messages.empty())
-        throw Error(fmt::format("the validation layer has {} messages, the first: {}", messages.size(), messages.front()));
+        throw Error(fmt::format("the validation layer has {} messages, the first: {}", messages.size(),
+                                messages.front()));
+}
+
+StopReason renderInterruptibly(Renderer& renderer, bool showProgress) {
+    const InterruptGuard guard;
+    ProgressBar progress(showProgress);
+    return renderer.render([&](double fraction) {
+        progress.show(fraction);
+        return !guard.interrupted();
+    });
+}
+
+void fillScene(RenderReport& report, const Scene& scene) {
+    report.scene = scene.source;
+    report.triangles = scene.triangleCount();
+    report.warnings = scene.warnings;
 }
 
 void fillResults(RenderReport& report, const Renderer& renderer, const gpu::Device& device,
                  const Rendering& rendering) {
+    report.device = device.description();
     report.kernels = renderer.wavefront().kernelTimes();
     report.rays = renderer.wavefront().rays();
     report.tallies = renderer.film().readTallies();
@@ -78,25 +95,32 @@ void fillResults(RenderReport& report, const Renderer& renderer, const gpu::Devi
 }
 
 void printSummary(const RenderReport& report) {
-    fmt::print("{}: {}x{}, {} samples per pixel in {:.2f} s on {} ({:.2f} M samples/s, {:.2f} M rays/s), bias ledger: {}\n",
-               report.scene, report.settings.width, report.settings.height,
-               report.samples / (uint64_t{report.settings.width} * report.settings.height), report.renderSeconds,
-               report.device.name, static_cast<double>(report.samples) / report.renderSeconds * 1e-6,
-               static_cast<double>(report.rays.total()) / report.renderSeconds * 1e-6, ledgerText(report.ledger));
+    fmt::print(
+        "{}: {}x{}, {} samples per pixel in {:.2f} s on {} ({:.2f} M samples/s, {:.2f} M rays/s), bias "
+        "ledger: {}\n",
+        report.scene, report.settings.width, report.settings.height,
+        report.samples / (uint64_t{report.settings.width} * report.settings.height), report.renderSeconds,
+        report.device.name, static_cast<double>(report.samples) / report.renderSeconds * 1e-6,
+        static_cast<double>(report.rays.total()) / report.renderSeconds * 1e-6, ledgerText(report.ledger));
 }
 
 } // namespace
 
 RenderCommand::RenderCommand(CLI::App& app)
     : Command(app, "render", "Render a scene to an image"), options_(parser()) {
-    parser().add_option("scene", scene_, "Built-in scene (" + fmt::format("{}", fmt::join(builtinNames(), ", ")) +
-                                             ") or .gltf or .glb file")
+    parser()
+        .add_option("scene", scene_,
+                    "Built-in scene (" + fmt::format("{}", fmt::join(builtinNames(), ", ")) +
+                        ") or .gltf or .glb file")
         ->type_name("SCENE");
-    parser().add_option("-o,--output", exr_, "EXR file; default: the scene's name, unless --png is given")
+    parser()
+        .add_option("-o,--output", exr_, "EXR file; default: the scene's name, unless --png is given")
         ->type_name("OUT.exr");
     parser().add_option("--png", png_, "PNG file to look at (sRGB)")->type_name("OUT.png");
     parser().add_option("--exposure", exposure_, "Stops of exposure for the PNG")->type_name("STOPS");
-    parser().add_option("--report", report_, "JSON report: times, rays, memory, ledger")->type_name("REPORT.json");
+    parser()
+        .add_option("--report", report_, "JSON report: times, rays, memory, ledger")
+        ->type_name("REPORT.json");
     parser().add_flag("--quiet", quiet_, "No messages but errors, no summary");
 }
 
@@ -111,6 +135,13 @@ void RenderCommand::requireOutputs() const {
             throw UsageError(fmt::format("{} cannot hold two outputs: give each a file of its own", *file));
         requireWritable(*file);
     }
+}
+
+void RenderCommand::writeImages(const Rendering& rendering, const RenderReport& report) const {
+    if (!exr_.empty())
+        writeExr(exr_, rendering, exrMetadata(report));
+    if (!png_.empty())
+        writePng(png_, rendering.radiance, exposure_);
 }
 
 int RenderCommand::run() {
@@ -136,30 +167,17 @@ int RenderCommand::run() {
     Renderer renderer(device, scene, camera, settings);
     watch.lap("prepare");
 
-    {
-        const InterruptGuard guard;
-        ProgressBar progress(!quiet_);
-        report.stop = renderer.render([&](double fraction) {
-            progress.show(fraction);
-            return !guard.interrupted();
-        });
-    }
+    report.stop = renderInterruptibly(renderer, !quiet_);
     report.renderSeconds = watch.lap("render");
     failOnValidation(device);
 
     const Rendering rendering = renderer.rendering();
-    report.scene = scene.source;
     report.camera = camera.name;
     report.settings = settings;
-    report.device = device.description();
-    report.triangles = scene.triangleCount();
-    report.warnings = scene.warnings;
+    fillScene(report, scene);
     fillResults(report, renderer, device, rendering);
     report.ledger = makeLedger(scene, settings, report.tallies, report.stop);
-    if (!exr_.empty())
-        writeExr(exr_, rendering, exrMetadata(report));
-    if (!png_.empty())
-        writePng(png_, rendering.radiance, exposure_);
+    writeImages(rendering, report);
     watch.lap("write");
     report.stages = watch.stages();
     if (!report_.empty())

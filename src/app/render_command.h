@@ -5,6 +5,8 @@
 
 #include "app/command.h"
 #include "app/render_options.h"
+#include "image/image.h"
+#include "render/report.h"
 
 namespace lavalight {
 
@@ -16,6 +18,7 @@ class RenderCommand : public Command {
 
   private:
     void requireOutputs() const;
+    void writeImages(const Rendering& rendering, const RenderReport& report) const;
 
     RenderOptions options_;
     std::string scene_ = "cornell-box";

@@ -5,6 +5,7 @@
 #include <mutex>
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "base/error.h"
 #include "gpu/device_selection.h"
@@ -35,8 +36,9 @@ vk::raii::Context makeContext() {
     try {
         return vk::raii::Context();
     } catch (const std::exception& error) {
-        throw Error(fmt::format("cannot load Vulkan: {}; Debian's packages are libvulkan1 and mesa-vulkan-drivers",
-                                error.what()));
+        throw Error(
+            fmt::format("cannot load Vulkan: {}; Debian's packages are libvulkan1 and mesa-vulkan-drivers",
+                        error.what()));
     }
 }
 
@@ -62,7 +64,10 @@ vk::raii::Instance makeInstance(const vk::raii::Context& context, bool validate)
         info.setPEnabledExtensionNames(extensions);
         info.setPNext(&features);
     }
-    return checked("create", "the Vulkan instance", [&] { return vk::raii::Instance(context, info); });
+    const auto create = [&] { return vk::raii::Instance(context, info); };
+    return checked(
+        "create",
+        "the Vulkan instance (is a driver installed? Debian's mesa-vulkan-drivers has one for CPUs)", create);
 }
 
 std::vector<vk::raii::PhysicalDevice> physicalDevices(const vk::raii::Instance& instance) {
@@ -81,6 +86,10 @@ std::vector<DeviceDescription> describeAll(const std::vector<vk::raii::PhysicalD
     return descriptions;
 }
 
+uint64_t hostMemoryBytes() {
+    return static_cast<uint64_t>(::sysconf(_SC_PHYS_PAGES)) * static_cast<uint64_t>(::sysconf(_SC_PAGE_SIZE));
+}
+
 DeviceLimits readLimits(const vk::raii::PhysicalDevice& physical, uint32_t queueFamily) {
     const auto chain =
         physical.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceSubgroupProperties>();
@@ -95,6 +104,9 @@ DeviceLimits readLimits(const vk::raii::PhysicalDevice& physical, uint32_t queue
     for (const vk::MemoryHeap& heap : physical.getMemoryProperties().memoryHeaps)
         if (heap.flags & vk::MemoryHeapFlagBits::eDeviceLocal)
             limits.memoryBytes = std::max<uint64_t>(limits.memoryBytes, heap.size);
+    if (physical.getProperties().deviceType == vk::PhysicalDeviceType::eCpu)
+        limits.memoryBytes =
+            std::max(limits.memoryBytes, hostMemoryBytes()); // Mesa 22.3 reports a heap of 2 GiB
     return limits;
 }
 
@@ -117,8 +129,10 @@ Device::Device(const DeviceConfig& config)
         using Severity = vk::DebugUtilsMessageSeverityFlagBitsEXT;
         using Type = vk::DebugUtilsMessageTypeFlagBitsEXT;
         messenger_ = vk::raii::DebugUtilsMessengerEXT(
-            instance_, {{}, Severity::eError | Severity::eWarning,
-                        Type::eGeneral | Type::eValidation | Type::ePerformance, &MessageLog::append,
+            instance_, {{},
+                        Severity::eError | Severity::eWarning,
+                        Type::eGeneral | Type::eValidation | Type::ePerformance,
+                        &MessageLog::append,
                         messages_.get()});
     }
     std::vector<vk::raii::PhysicalDevice> devices = physicalDevices(instance_);

@@ -21,14 +21,20 @@ glm::vec3 environmentOf(const Scene& scene, const RenderSettings& settings) {
     return settings.environment.value_or(scene.environment);
 }
 
-// Samples that a pixel takes while it is in the wave: they share one update of its film words, and the vector units
-// trace their camera rays together.
+// Samples that a pixel takes while it is in the wave: they share one update of its film words, and the vector
+// units trace their camera rays together.
 constexpr uint32_t kSamplesTogether = 16;
+
+// Mesa 22.3's lavapipe ends all loops of an invocation without a word after 65,535 turns in sum, and
+// accumulate makes four turns a sample: beyond 16,000 samples it lost some (measured: 1x1 pixel, 65536
+// samples in one wave).
+constexpr uint32_t kMostSamplesTogether = 4096;
 
 // Of `remaining` ones: more than kSamplesTogether only where the wave would not be full.
 uint32_t samplesPerWave(uint32_t remaining, uint32_t waveSize, const Film& film) {
-    const uint32_t bandPixels = film.bands().front().rows * film.width(); // no band has more rows than the first
-    return std::min(remaining, std::max(kSamplesTogether, waveSize / bandPixels));
+    const uint32_t bandPixels =
+        film.bands().front().rows * film.width(); // no band has more rows than the first
+    return std::min(remaining, std::clamp(waveSize / bandPixels, kSamplesTogether, kMostSamplesTogether));
 }
 
 } // namespace
@@ -67,7 +73,8 @@ FrameParameters makeFrame(const Scene& scene, const Camera& camera, const Render
     return frame;
 }
 
-Renderer::Renderer(gpu::Device& device, const Scene& scene, const Camera& camera, const RenderSettings& settings)
+Renderer::Renderer(gpu::Device& device, const Scene& scene, const Camera& camera,
+                   const RenderSettings& settings)
     : settings_(settings),
       scene_(device, scene, environmentOf(scene, settings), settings.estimator.lightSelection),
       film_(device, settings.width, settings.height, settings.bandRows),
@@ -76,9 +83,11 @@ Renderer::Renderer(gpu::Device& device, const Scene& scene, const Camera& camera
 StopReason Renderer::render(const KeepGoing& keepGoing) {
     const auto start = std::chrono::steady_clock::now();
     const auto mayGoOn = [&](double fraction) {
-        const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        const double seconds =
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         isOutOfTime_ = settings_.seconds > 0.0 && seconds >= settings_.seconds;
-        return keepGoing(isTimed() ? std::max(fraction, seconds / settings_.seconds) : fraction) && !isOutOfTime_;
+        return keepGoing(isTimed() ? std::max(fraction, seconds / settings_.seconds) : fraction) &&
+               !isOutOfTime_;
     };
     for (uint32_t done = 0; done < settings_.samples;) {
         const uint32_t count = nextPass(done);
@@ -98,7 +107,8 @@ uint32_t Renderer::nextPass(uint32_t done) const {
     return isTimed() || settings_.targetError > 0.0 ? std::min(count, std::max(1u, done)) : count;
 }
 
-bool Renderer::renderBand(size_t band, uint32_t firstSample, uint32_t sampleCount, const KeepGoing& keepGoing) {
+bool Renderer::renderBand(size_t band, uint32_t firstSample, uint32_t sampleCount,
+                          const KeepGoing& keepGoing) {
     const FilmBand& rows = film_.bands()[band];
     const uint32_t first = rows.firstRow * film_.width();
     const uint32_t pixels = rows.rows * film_.width();

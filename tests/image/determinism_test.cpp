@@ -62,6 +62,19 @@ TEST_F(Determinism, RangesOfSamplesAddUpExactly) {
     EXPECT_EQ(sumOfFilms(first, second), expected);
 }
 
+// Many samples of few pixels in one wave: lavapipe cuts loops that are too long.
+TEST_F(Determinism, ManySamplesOfOnePixelAllCount) {
+    RenderSettings settings = imageSettings(1, 1, 40000);
+    settings.estimator.maxBounces = 0;
+    Scene scene;
+    scene.cameras.emplace_back();
+    scene.materials.emplace_back();
+    scene.environment = {0.25f, 0.5f, 2.0f};
+    const RenderResult result = renderScene(device(), scene, settings);
+    EXPECT_EQ(result.rendering.sampleCounts.front(), 40000u);
+    expectEveryPixel(result, scene.environment);
+}
+
 // One band of such an image exceeds what lavapipe allows in a storage buffer (128 MiB).
 TEST_F(Determinism, ImageTooLargeForOneBufferIsWhole) {
     RenderSettings settings = imageSettings(100, 16384, 1);
