@@ -63,16 +63,14 @@ bool intersectTriangle(ShearedRay ray, vec3 v0, vec3 v1, vec3 v2, float tMax, ou
     vec3 b = shearCorner(ray, v1);
     vec3 c = shearCorner(ray, v2);
     vec3 edges = vec3(edgeFunction(c, b), edgeFunction(a, c), edgeFunction(b, a)); // opposite of v0, v1, v2
-    float smallest = min(min(edges.x, edges.y), edges.z);
-    float largest = max(max(edges.x, edges.y), edges.z);
     float determinant = edges.x + edges.y + edges.z;
-    vec3 weights = edges / determinant;
+    vec3 weights = edges * (1.0 / determinant);
     // Precise to a few 1e-7 of t, on slivers to 1e-4. The quotient that the plane gives is better there, but only with the
     // normal from the two shorter edges, and finding those measured 12 % of all rays' time.
     hit.t = dot(weights, vec3(a.z, b.z, c.z));
     hit.barycentrics = weights.yz;
     hit.front = (determinant > 0.0) == (ray.shear.z > 0.0);
-    bool inside = smallest >= 0.0 || largest <= 0.0;
+    bool inside = all(greaterThanEqual(edges, vec3(0.0))) || all(lessThanEqual(edges, vec3(0.0)));
     return inside && determinant != 0.0 && hit.t > 0.0 && hit.t < tMax;
 }
 

@@ -6,6 +6,7 @@
 #include "lib/ray_box.glsl"
 #include "lib/ray_triangle.glsl"
 #include "scene/leaf_triangle.glsl"
+#include "scene/traversal_stack.glsl"
 #include "shared/bindings.h"
 #include "shared/bvh.h"
 #include "shared/wavefront.h"
@@ -21,24 +22,27 @@ BvhNode loadNode(uint index) {
     return BvhNode(uintBitsToFloat(a.xyz), a.w, b, uint[6](c.x, c.y, c.z, c.w, d.x, d.y), uint[2](0u, 0u));
 }
 
-// Puts the nearer of two children first. A missed one lies at infinity.
-void orderPair(inout float ta, inout float tb, inout uint a, inout uint b) {
-    bool swap = tb < ta;
-    float t = swap ? ta : tb;
-    uint child = swap ? a : b;
-    ta = swap ? tb : ta;
-    a = swap ? b : a;
-    tb = t;
-    b = child;
+uvec4 loadChildren(uint node) {
+    return texelFetch(bvhNodes, int(node * kNodeTexels) + 1);
+}
+
+uint childReference(uvec4 children, uint number) {
+    return number == 0u ? children.x : number == 1u ? children.y : number == 2u ? children.z : children.w;
+}
+
+void orderPair(inout uint a, inout uint b) {
+    uint smaller = min(a, b);
+    b = max(a, b);
+    a = smaller;
 }
 
 // Five comparisons sort four.
-void orderChildren(inout vec4 t, inout uvec4 children) {
-    orderPair(t.x, t.y, children.x, children.y);
-    orderPair(t.z, t.w, children.z, children.w);
-    orderPair(t.x, t.z, children.x, children.z);
-    orderPair(t.y, t.w, children.y, children.w);
-    orderPair(t.y, t.z, children.y, children.z);
+void order(inout uvec4 keys) {
+    orderPair(keys.x, keys.y);
+    orderPair(keys.z, keys.w);
+    orderPair(keys.x, keys.z);
+    orderPair(keys.y, keys.w);
+    orderPair(keys.y, keys.z);
 }
 
 // What a ray passes through. A triangle that a ray starts or ends on must not be hit there: no offset of the origin could
@@ -72,51 +76,43 @@ bool intersectLeaf(ShearedRay ray, uint leaf, RayFilter ignored, inout Hit hit) 
     return found;
 }
 
-// Depth first, near children first. The others wait on a private stack with the distance at which the ray enters them,
-// since a hit found meanwhile makes a tenth of them idle. A step tests a node and then, whatever came of it, a leaf: rays
-// that run in lockstep would otherwise pay for both and take one. Returns at the first hit if `any`.
+// Depth first, near children first. A step tests a node and then, whatever came of it, a leaf: rays that run in lockstep
+// would otherwise pay for both and take one. Returns at the first hit if `any`.
 bool traverse(vec3 origin, vec3 direction, RayFilter ignored, bool any, inout Hit hit) {
     direction = withoutZeros(direction);
     SlabRay slab = slabRay(origin, direction);
     ShearedRay sheared = shearRay(origin, direction);
-    uint stack[kTraversalStackSize];
-    float stackEnter[kTraversalStackSize];
-    uint size = 0u;
-    uint current = 0u;
+    Stack stack = emptyStack();
+    Siblings siblings = Siblings(0u, kNobody);
+    uint current = 0u; // a node, a leaf, or, as an empty leaf, nothing
     bool found = false;
     while (true) {
-        if ((current & kLeafBit) == 0u) {
-            BvhNode node = loadNode(current);
-            vec4 enter, leave;
-            intersectBoxes(slab, node, hit.t, enter, leave);
-            vec4 t = mix(vec4(kInfinity), enter, lessThanEqual(enter, leave));
-            uvec4 children = node.children;
-            orderChildren(t, children);
-            if (t.w < kInfinity) {
-                stack[size] = children.w;
-                stackEnter[size++] = t.w;
+        while (stack.size < kStackRegisters) {
+            if ((current & kLeafBit) == 0u) {
+                BvhNode node = loadNode(current);
+                uvec4 keys = intersectBoxes(slab, node, hit.t);
+                order(keys);
+                if (keys.x != kMissed && anyWaits(siblings))
+                    push(stack, siblings);
+                if (keys.x != kMissed)
+                    siblings = siblingsOfNearest(current, keys);
+                current = keys.x != kMissed ? childReference(node.children, keys.x & 3u) : kEmptyLeaf;
             }
-            if (t.z < kInfinity) {
-                stack[size] = children.z;
-                stackEnter[size++] = t.z;
+            if ((current & kLeafBit) != 0u) {
+                found = intersectLeaf(sheared, current, ignored, hit) || found;
+                if (any && found)
+                    return true;
+                while (!anyWaitsBefore(siblings, hit.t) && stack.size > 0u)
+                    siblings = pop(stack);
+                current = kEmptyLeaf;
+                if (!anyWaitsBefore(siblings, hit.t))
+                    break;
+                current = childReference(loadChildren(siblings.parent), takeNext(siblings));
             }
-            if (t.y < kInfinity) {
-                stack[size] = children.y;
-                stackEnter[size++] = t.y;
-            }
-            current = t.x < kInfinity ? children.x : kEmptyLeaf;
         }
-        if ((current & kLeafBit) != 0u) {
-            found = intersectLeaf(sheared, current, ignored, hit) || found;
-            if (any && found)
-                return true;
-            do {
-                if (size == 0u)
-                    return found;
-                --size;
-            } while (stackEnter[size] >= hit.t);
-            current = stack[size];
-        }
+        if (stack.size == 0u && stack.blocks == 0u)
+            return found;
+        exchange(stack);
     }
 }
 

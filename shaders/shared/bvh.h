@@ -30,8 +30,8 @@ SHARED_CONST uint kLeafCountMask = 7u;
 SHARED_CONST uint kLeafFirstMask = 0x0fffffffu;
 SHARED_CONST uint kMaxLeafTriangles = 4u;
 
-// Entries of a ray's private stack. A level of the tree leaves at most three; the builder keeps trees below 64 / 3 levels.
-SHARED_CONST uint kTraversalStackSize = 64u;
+// Levels of nodes: the builder makes no deeper tree.
+SHARED_CONST uint kMaxBvhLevels = 40u;
 
 // Coordinates reach this far from zero, so that squares of distances and slab distances stay finite floats: 2^63.
 SHARED_CONST float kMaxCoordinate = 9.223372e18f;

@@ -44,7 +44,6 @@ struct BuildNode {
     std::array<const BuildNode*, 2> children{};
     uint32_t triangle = 0; // of a reference
     uint32_t count = 1;    // references in this subtree
-    uint32_t height = 0;   // levels until no subtree has more than kMaxLeafTriangles references
     Plan plan;
 };
 
@@ -59,20 +58,16 @@ void makeInner(BuildNode& node, const BuildNode& left, const BuildNode& right, f
 [[nodiscard]] const BuildNode* buildMedianTree(std::span<const Triangle> triangles, std::span<uint32_t> ids,
                                                float triangleCost, std::deque<BuildNode>& arena);
 
-// Which subtrees become children of a wide node: by plan, the cheapest tree; by height, two levels a node or
-// more, the fallback that halves the height.
-enum class Collapse { cheapest, flattest };
-
 struct WideChild {
     const BuildNode* subtree = nullptr;
     bool isLeaf = false; // then it has at most kMaxLeafTriangles references
 };
 
-// One to four.
-[[nodiscard]] std::vector<WideChild> wideChildren(const BuildNode& node, Collapse rule);
+// Which subtrees become children of a wide node, one to four, so that the tree is the cheapest.
+[[nodiscard]] std::vector<WideChild> wideChildren(const BuildNode& node);
 
 // Collapses to four children a node, quantises, and lays nodes and leaf triangles out depth first; fills
-// nodes, leafTriangles and stackNeed. `root` may be null: no triangles. Throws Error if the result exceeds
+// nodes, leafTriangles and levels. `root` may be null: no triangles. Throws Error if the result exceeds
 // requireBvhFits.
 [[nodiscard]] Bvh flattenTree(const BuildNode* root);
 

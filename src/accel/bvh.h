@@ -20,8 +20,8 @@ struct BvhConfig {
 struct Bvh {
     std::vector<BvhNode> nodes;          // node 0 is the root; a node's inner children are neighbours
     std::vector<uint32_t> leafTriangles; // triangle ids in leaf order; split triangles repeat
-    uint32_t stackNeed = 0; // entries that the worst ray leaves on its stack; <= kTraversalStackSize
-    Bounds bounds;          // of all triangles; both corners 0 without any
+    uint32_t levels = 0;                 // of nodes; at most kMaxBvhLevels
+    Bounds bounds;                       // of all triangles; both corners 0 without any
     double buildSeconds = 0.0;
 };
 

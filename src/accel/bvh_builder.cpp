@@ -17,10 +17,9 @@ namespace lavalight {
 
 namespace {
 
-// Levels of the binary tree. Embree halves lists without looking at areas in the last eight; collapsed by
-// height, 40 levels fill 60 entries of the stack.
-constexpr uint32_t kMaxBinaryDepth = 40;
-static_assert(3 * (kMaxBinaryDepth / 2) <= kTraversalStackSize);
+// Levels of the binary tree, of which collapsing makes at most as many. Embree halves lists without looking
+// at areas in the last eight.
+constexpr uint32_t kMaxBinaryDepth = kMaxBvhLevels;
 
 // What Embree's callbacks know.
 struct BuildContext {

@@ -63,8 +63,6 @@ void quantise(const std::vector<WideChild>& children, BvhNode& node) {
 
 class Flattener {
   public:
-    explicit Flattener(Collapse rule) : rule_(rule) {}
-
     [[nodiscard]] Bvh run(const BuildNode* root) {
         bvh_.nodes.emplace_back();
         if (root)
@@ -75,12 +73,11 @@ class Flattener {
     }
 
   private:
-    Collapse rule_;
     Bvh bvh_;
 
     void emit(uint32_t index, const BuildNode& node, uint32_t level) {
-        bvh_.stackNeed = std::max(bvh_.stackNeed, 3 * level);
-        const std::vector<WideChild> children = wideChildren(node, rule_);
+        bvh_.levels = std::max(bvh_.levels, level);
+        const std::vector<WideChild> children = wideChildren(node);
         emitChildren(index, children);
         for (size_t i = 0; i < children.size(); ++i)
             if (!children[i].isLeaf)
@@ -134,10 +131,8 @@ class Flattener {
 } // namespace
 
 Bvh flattenTree(const BuildNode* root) {
-    Bvh bvh = Flattener(Collapse::cheapest).run(root);
-    if (bvh.stackNeed > kTraversalStackSize)
-        bvh = Flattener(Collapse::flattest).run(root);
-    assert(bvh.stackNeed <= kTraversalStackSize);
+    Bvh bvh = Flattener().run(root);
+    assert(bvh.levels <= kMaxBvhLevels);
     return bvh;
 }
 

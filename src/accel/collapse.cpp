@@ -63,22 +63,6 @@ void appendCheapest(const BuildNode& node, size_t atMost, std::vector<WideChild>
     appendCheapest(*node.children[1], roots - share, children);
 }
 
-void openTallest(std::vector<WideChild>& children) {
-    while (children.size() < 4) {
-        const auto tallest =
-            std::max_element(children.begin(), children.end(), [](const auto& a, const auto& b) {
-                return a.subtree->height < b.subtree->height;
-            });
-        if (tallest->subtree->height == 0)
-            break;
-        const BuildNode& opened = *tallest->subtree;
-        *tallest = {opened.children[0]};
-        children.insert(tallest + 1, {opened.children[1]});
-    }
-    for (WideChild& child : children)
-        child.isLeaf = child.subtree->height == 0;
-}
-
 } // namespace
 
 void makeReference(BuildNode& node, uint32_t triangle, const BuildBox& box, float triangleCost) {
@@ -93,22 +77,16 @@ void makeInner(BuildNode& node, const BuildNode& left, const BuildNode& right, f
     node.box = left.box;
     node.box.extend(right.box);
     node.count = left.count + right.count;
-    node.height = node.count <= kMaxLeafTriangles ? 0 : 1 + std::max(left.height, right.height);
     node.plan = planInner(node, triangleCost);
 }
 
-std::vector<WideChild> wideChildren(const BuildNode& node, Collapse rule) {
-    std::vector<WideChild> children;
+std::vector<WideChild> wideChildren(const BuildNode& node) {
     if (node.count == 1)
         return {{&node, true}};
-    if (rule == Collapse::cheapest) {
-        const size_t share = node.plan.share[3];
-        appendCheapest(*node.children[0], share, children);
-        appendCheapest(*node.children[1], 4 - share, children);
-    } else {
-        children = {{node.children[0]}, {node.children[1]}};
-        openTallest(children);
-    }
+    std::vector<WideChild> children;
+    const size_t share = node.plan.share[3];
+    appendCheapest(*node.children[0], share, children);
+    appendCheapest(*node.children[1], 4 - share, children);
     assert(children.size() <= 4);
     return children;
 }
