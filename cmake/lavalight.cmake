@@ -1,7 +1,8 @@
 # Build helpers: libraries per source folder, embedded files, embedded kernels.
 
 add_library(lavalight_options INTERFACE)
-target_compile_options(lavalight_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Werror)
+# No contraction to fused multiply-adds: the same bits on every processor.
+target_compile_options(lavalight_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Werror -ffp-contract=off)
 target_include_directories(lavalight_options INTERFACE ${CMAKE_SOURCE_DIR}/src ${CMAKE_SOURCE_DIR}/shaders)
 
 # lavalight_library(NAME DEPS ... [PRIVATE_DEPS ...] [EXCLUDE file...]): all of src/NAME as lavalight_NAME.

@@ -64,8 +64,14 @@ void failOnValidation(const gpu::Device& device) {
                                 messages.front()));
 }
 
-StopReason renderInterruptibly(Renderer& renderer, bool showProgress) {
-    const InterruptGuard guard;
+Scene loadWithWarnings(const std::string& name) {
+    Scene scene = loadScene(name);
+    for (const std::string& warning : scene.warnings)
+        spdlog::warn("{}", warning);
+    return scene;
+}
+
+StopReason renderInterruptibly(Renderer& renderer, const InterruptGuard& guard, bool showProgress) {
     ProgressBar progress(showProgress);
     return renderer.render([&](double fraction) {
         progress.show(fraction);
@@ -73,7 +79,10 @@ StopReason renderInterruptibly(Renderer& renderer, bool showProgress) {
     });
 }
 
-void fillScene(RenderReport& report, const Scene& scene) {
+void fillInputs(RenderReport& report, const Scene& scene, const Camera& camera,
+                const RenderSettings& settings) {
+    report.camera = camera.name;
+    report.settings = settings;
     report.scene = scene.source;
     report.triangles = scene.triangleCount();
     report.warnings = scene.warnings;
@@ -154,9 +163,7 @@ int RenderCommand::run() {
 
     RenderReport report;
     Stopwatch watch;
-    const Scene scene = loadScene(scene_);
-    for (const std::string& warning : scene.warnings)
-        spdlog::warn("{}", warning);
+    const Scene scene = loadWithWarnings(scene_);
     const Camera& camera = options_.pickCamera(scene);
     settings = resolveSize(settings, camera);
     checkSettings(settings);
@@ -167,14 +174,13 @@ int RenderCommand::run() {
     Renderer renderer(device, scene, camera, settings);
     watch.lap("prepare");
 
-    report.stop = renderInterruptibly(renderer, !quiet_);
+    const InterruptGuard guard; // until all files are written: Ctrl-C loses no image
+    report.stop = renderInterruptibly(renderer, guard, !quiet_);
     report.renderSeconds = watch.lap("render");
     failOnValidation(device);
 
     const Rendering rendering = renderer.rendering();
-    report.camera = camera.name;
-    report.settings = settings;
-    fillScene(report, scene);
+    fillInputs(report, scene, camera, settings);
     fillResults(report, renderer, device, rendering);
     report.ledger = makeLedger(scene, settings, report.tallies, report.stop);
     writeImages(rendering, report);

@@ -41,8 +41,8 @@ Table scene(gpu::Device& device, const LabOptions& options) {
     estimator.fresnel = Fresnel::schlick;
     rows.add("Schlick", estimator);
     Table table = rows.table("cornell-glass", "The Cornell box with a ball of glass");
-    table.notes.emplace_back(
-        "The means differ because the models do: no number of samples brings them together.");
+    table.notes.emplace_back("The means differ because the models do, but by little: it takes many samples "
+                             "to see it in a picture.");
     return table;
 }
 

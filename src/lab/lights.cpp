@@ -76,9 +76,9 @@ Table scene(gpu::Device& device, uint32_t seed) {
     }
     Table table =
         rows.table("scene", "The scene large-small-light by light sampling alone, direct light only");
-    table.notes.emplace_back(
-        "Power does not know distances: below the small light it is sampled too rarely, the large "
-        "one's gain elsewhere is measured to balance that here.");
+    table.notes.emplace_back("Power does not know distances: below the small light it is sampled too rarely, "
+                             "everywhere else the large one "
+                             "brings more and is picked more often.");
     return table;
 }
 

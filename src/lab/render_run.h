@@ -1,6 +1,7 @@
 // A small render whose estimator is measured: mean, variance, rays, time.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -13,7 +14,8 @@
 
 namespace lavalight {
 
-// Means are over pixels and channels.
+// Means are over channels and over the pixels that see no light source: the edge of a light in the picture is
+// noise that no estimator of illumination changes, and bright enough to hide what does change.
 struct RenderRun {
     uint64_t samples = 0; // per pixel
     double mean = 0.0;
@@ -31,7 +33,8 @@ struct RenderRun {
 
 class RenderBench {
   public:
-    // `scene` is a built-in name or a file; `height` in pixels, the width follows from its camera.
+    // `scene` is a built-in name or a file without environment; `height` in pixels, the width follows from
+    // its camera.
     RenderBench(gpu::Device& device, const std::string& scene, uint32_t height);
 
     [[nodiscard]] RenderRun measure(const EstimatorSettings& estimator, uint32_t samples) const;
@@ -44,6 +47,7 @@ class RenderBench {
     gpu::Device* device_;
     Scene scene_;
     uint32_t height_;
+    std::vector<size_t> measured_; // indices of pixels
 };
 
 // Settings that differ from the defaults in the sampler alone, so that the film's variance is that of the

@@ -180,11 +180,10 @@ std::vector<Table> runSampler(gpu::Device& device, const LabOptions& options) {
                                      kImageHeight, kImageSeeds),
                          box, {}));
     fits.rows.push_back(slopes("cornell-box", box));
-    fits.notes = {"Independent numbers: -0.5, whatever the integrand. Sobol's points, Owen-scrambled: up to "
-                  "-1.5 where the "
-                  "integrand is smooth, less where it jumps, and little better than -0.5 where many "
-                  "dimensions and edges meet, "
-                  "as in a path; yet the error is smaller there too."};
+    fits.notes = {
+        "Independent numbers: -0.5, whatever the integrand. Sobol's points, Owen-scrambled: up to -1.5 where "
+        "the integrand is smooth, less where it jumps, and in between for paths, where dimensions and edges "
+        "are many."};
     tables.push_back(std::move(fits));
     return tables;
 }

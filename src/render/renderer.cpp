@@ -74,11 +74,12 @@ FrameParameters makeFrame(const Scene& scene, const Camera& camera, const Render
 }
 
 Renderer::Renderer(gpu::Device& device, const Scene& scene, const Camera& camera,
-                   const RenderSettings& settings)
+                   const RenderSettings& settings, const KernelSource& kernels)
     : settings_(settings),
       scene_(device, scene, environmentOf(scene, settings), settings.estimator.lightSelection),
       film_(device, settings.width, settings.height, settings.bandRows),
-      wavefront_(device, scene_, film_, settings, frameFor(scene, camera, settings, scene_)) {}
+      wavefront_(device, WavefrontKernels(device, settings.estimator, kernels), scene_, film_,
+                 frameFor(scene, camera, settings, scene_)) {}
 
 StopReason Renderer::render(const KeepGoing& keepGoing) {
     const auto start = std::chrono::steady_clock::now();

@@ -23,7 +23,9 @@ class Renderer {
   public:
     // Uploads the scene and builds the kernels. `settings.width` must be resolved (resolveSize) and the settings
     // checked. The device must outlive the renderer. Throws Error where the device's limits are exceeded.
-    Renderer(gpu::Device& device, const Scene& scene, const Camera& camera, const RenderSettings& settings);
+    // The default kernels are those that the build embedded.
+    Renderer(gpu::Device& device, const Scene& scene, const Camera& camera, const RenderSettings& settings,
+             const KernelSource& kernels = embeddedKernel);
     Renderer(const Renderer&) = delete; // the wavefront refers to the scene and the film
     Renderer& operator=(const Renderer&) = delete;
 

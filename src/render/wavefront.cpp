@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cstddef>
 #include <span>
+#include <utility>
 
 #include "kernels.h"
 
@@ -32,11 +33,15 @@ std::array<gpu::SpecialisationConstant, 7> constantsOf(const EstimatorSettings& 
 
 } // namespace
 
-Wavefront::Kernels::Kernels(const gpu::Device& device, const EstimatorSettings& settings)
-    : generate(device, kernels::find("generate"), constantsOf(settings)),
-      extend(device, kernels::find("extend")),
-      shade(device, kernels::find("shade"), constantsOf(settings)), prepare(device, kernels::find("prepare")),
-      connect(device, kernels::find("connect")), accumulate(device, kernels::find("accumulate")) {}
+gpu::KernelCode embeddedKernel(std::string_view name) {
+    return kernels::find(name);
+}
+
+WavefrontKernels::WavefrontKernels(const gpu::Device& device, const EstimatorSettings& settings,
+                                   const KernelSource& source)
+    : generate(device, source("generate"), constantsOf(settings)), extend(device, source("extend")),
+      shade(device, source("shade"), constantsOf(settings)), prepare(device, source("prepare")),
+      connect(device, source("connect")), accumulate(device, source("accumulate")) {}
 
 Wavefront::State::State(gpu::Device& device, uint32_t slots, uint32_t maxBounces)
     : rays(device, "rays", slots * sizeof(Ray), gpu::BufferUse::storage),
@@ -74,16 +79,16 @@ gpu::ResourceTable withBand(gpu::ResourceTable resources, const gpu::Buffer& fra
 
 } // namespace
 
-Wavefront::Band::Band(gpu::Device& device, const Kernels& kernels, const gpu::ResourceTable& shared,
+Wavefront::Band::Band(gpu::Device& device, const WavefrontKernels& kernels, const gpu::ResourceTable& shared,
                       const FilmBand& film, const FrameParameters& parameters)
     : frame(uploadFrame(device, parameters, film)), resources(withBand(shared, frame, film)),
       generate(device, kernels.generate, resources), extend(device, kernels.extend, resources), shade(device, kernels.shade, resources),
       prepare(device, kernels.prepare, resources), connect(device, kernels.connect, resources),
       accumulate(device, kernels.accumulate, resources) {}
 
-Wavefront::Wavefront(gpu::Device& device, const GpuScene& scene, const Film& film, const RenderSettings& settings,
+Wavefront::Wavefront(gpu::Device& device, WavefrontKernels kernels, const GpuScene& scene, const Film& film,
                      const FrameParameters& frame)
-    : maxBounces_(settings.estimator.maxBounces), kernels_(device, settings.estimator),
+    : maxBounces_(frame.maxBounces), kernels_(std::move(kernels)),
       state_(device, frame.waveSize, maxBounces_), commands_(device) {
     gpu::ResourceTable resources;
     scene.addTo(resources);

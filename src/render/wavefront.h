@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <string_view>
 #include <vector>
 
 #include "gpu/buffer.h"
@@ -22,25 +24,34 @@ struct RayCounts {
     [[nodiscard]] uint64_t total() const { return camera + indirect + shadow; }
 };
 
+// Where compiled kernels come from, by name.
+using KernelSource = std::function<gpu::KernelCode(std::string_view name)>;
+
+// Those that the build compiled.
+[[nodiscard]] gpu::KernelCode embeddedKernel(std::string_view name);
+
+// The kernels of a wave, specialised to an estimator.
+struct WavefrontKernels {
+    WavefrontKernels(const gpu::Device& device, const EstimatorSettings& settings,
+                     const KernelSource& source);
+    gpu::Kernel generate, extend, shade, prepare, connect, accumulate;
+};
+
 class Wavefront {
   public:
-    // `frame` says what scene, camera and settings decide; band and wave size are filled in here. The device, the scene
-    // and the film must outlive the wavefront.
-    Wavefront(gpu::Device& device, const GpuScene& scene, const Film& film, const RenderSettings& settings,
+    // `frame` says what scene, camera and settings decide; the band's size is filled in here. The device, the
+    // scene and the film must outlive the wavefront.
+    Wavefront(gpu::Device& device, WavefrontKernels kernels, const GpuScene& scene, const Film& film,
               const FrameParameters& frame);
 
-    // Takes range.sampleCount samples for each of range.pixelCount pixels of band `band` and adds them to the film.
-    // pixelCount * sampleCount must not exceed the wave size.
+    // Takes range.sampleCount samples for each of range.pixelCount pixels of band `band` and adds them to the
+    // film. pixelCount * sampleCount must not exceed the wave size.
     void renderWave(size_t band, const WaveRange& range);
 
     [[nodiscard]] const RayCounts& rays() const { return rays_; }
     [[nodiscard]] const gpu::KernelTimes& kernelTimes() const { return commands_.times(); }
 
   private:
-    struct Kernels {
-        Kernels(const gpu::Device& device, const EstimatorSettings& settings);
-        gpu::Kernel generate, extend, shade, prepare, connect, accumulate;
-    };
     // One element per slot, but for queues (three of them) and the few words at the end.
     struct State {
         State(gpu::Device& device, uint32_t slots, uint32_t maxBounces);
@@ -49,8 +60,8 @@ class Wavefront {
     };
     // The kernels bound to one band of the film.
     struct Band {
-        Band(gpu::Device& device, const Kernels& kernels, const gpu::ResourceTable& shared, const FilmBand& film,
-             const FrameParameters& parameters);
+        Band(gpu::Device& device, const WavefrontKernels& kernels, const gpu::ResourceTable& shared,
+             const FilmBand& film, const FrameParameters& parameters);
         gpu::Buffer frame;
         gpu::ResourceTable resources;
         gpu::BoundKernel generate, extend, shade, prepare, connect, accumulate;
@@ -60,7 +71,7 @@ class Wavefront {
     void countRays();
 
     uint32_t maxBounces_;
-    Kernels kernels_;
+    WavefrontKernels kernels_;
     State state_;
     std::vector<Band> bands_;
     gpu::Commands commands_;

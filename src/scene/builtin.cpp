@@ -63,6 +63,8 @@ Scene loadScene(const std::string& nameOrPath) {
                                     kMostTriangles));
         return makeDenseScene(*triangles);
     }
+    if (nameOrPath.empty())
+        throw Error("cannot read the scene: its name is empty");
     std::error_code code;
     if (!std::filesystem::exists(nameOrPath, code))
         throw Error(

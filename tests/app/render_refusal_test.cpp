@@ -62,6 +62,7 @@ TEST_F(RenderRefusal, SceneThatIsNoFile) {
     expectSceneRefusal("none.glb", "none.glb");
     expectSceneRefusal("cornell-bx", "cornell-bx");
     expectSceneRefusal(".", "directory");
+    expectSceneRefusal("", "empty");
 }
 
 TEST_F(RenderRefusal, SceneThatIsNoGltf) {
@@ -122,7 +123,8 @@ TEST_F(RenderRefusal, EnvironmentsThatCannotBe) {
 TEST_F(RenderRefusal, OptionValuesThatCannotBe) {
     expectRefusal({"--mis", "best"}, kWrongUsage, "best not in {balance,off,power}");
     expectRefusal({"--mis", "1"}, kWrongUsage, "--mis"); // the number behind a name is no name
-    expectRefusal({"--roulette", "russian"}, kWrongUsage, "russian not in {constant,max-albedo,mean-albedo,off,throughput}");
+    expectRefusal({"--roulette", "russian"}, kWrongUsage,
+                  "russian not in {constant,max-albedo,mean-albedo,off,throughput}");
     expectRefusal({"--nee", "maybe"}, kWrongUsage, "--nee");
     expectRefusal({"--require-device", "tpu"}, kWrongUsage, "tpu not in {any,cpu,gpu}");
     for (const char* option :
@@ -138,6 +140,19 @@ TEST_F(RenderRefusal, OptionValuesOutOfRange) {
     expectRefusal({"--max-bounces", "1025"}, kWrongUsage, "--max-bounces: 1025 is outside");
     expectRefusal({"--roulette-start", "0"}, kWrongUsage, "--roulette-start: 0 is outside");
     expectRefusal({"--wave-size", "63"}, kWrongUsage, "--wave-size: 63 is outside");
+}
+
+TEST_F(RenderRefusal, EstimatorsThatCannotBe) {
+    for (const char* probability : {"0", "-0.5", "1.5", "nan"})
+        expectRefusal({"--roulette", "constant", "--roulette-probability", probability}, kWrongUsage,
+                      "--roulette-probability");
+    expectRefusal({"--max-bounces", "-1"}, kWrongUsage, "--max-bounces");
+    expectRefusal({"--clamp-indirect", "0"}, kWrongUsage, "--clamp-indirect");
+    expectRefusal({"--time", "-1"}, kWrongUsage, "--time");
+    expectRefusal({"--target-error", "-0.1"}, kWrongUsage, "--target-error");
+    expectRefusal({"--preset", "best"}, kWrongUsage, "naive, cosine, nee, mis, roulette, reference");
+    expectRefusal({"--mis-survival", "on"}, kWrongUsage, "--mis-survival on needs a --roulette");
+    expectRefusal({"--preset", "naive", "--mis-survival", "on"}, kWrongUsage, "it is off");
 }
 
 TEST_F(RenderRefusal, WordsThatNobodyTakes) {

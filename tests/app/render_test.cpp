@@ -182,6 +182,33 @@ TEST_F(Render, ValidationLayerHasNothingToSay) {
     expectSuccess({"--validate", "--mis", "off", "--band-rows", "5"});
 }
 
+TEST_F(Render, StopsAtTheTimeOrTheErrorAskedFor) {
+    const auto stopped = [&](const std::vector<std::string>& stop) {
+        std::vector<std::string> arguments{"render", "--size", "16x12", "-o", "a.exr"};
+        arguments.insert(arguments.end(), stop.begin(), stop.end());
+        const ProgramResult result = runLavalight(arguments, folder_.path());
+        EXPECT_EQ(result.exitCode, 0) << result.err;
+        return header("a.exr");
+    };
+    auto keys = stopped({"--time", "2"});
+    EXPECT_GT(std::stoul(keys.at("samples-per-pixel")), 64u); // no longer the default's
+    EXPECT_LT(std::stod(keys.at("render-seconds")), 8.0);
+    EXPECT_EQ(keys.at("bias-ledger"), "none");
+    keys = stopped({"--target-error", "0.5"});
+    EXPECT_TRUE(keys.at("bias-ledger").starts_with("stopped-on-estimate: ")) << keys.at("bias-ledger");
+    keys = stopped({"--target-error", "1e-9", "--spp", "2"});
+    EXPECT_EQ(keys.at("samples-per-pixel"), "2");
+    EXPECT_EQ(keys.at("bias-ledger"), "none");
+}
+
+TEST_F(Render, PresetsAreStartingPoints) {
+    expectSuccess({"-o", "a.exr", "--preset", "naive", "--hemisphere", "cosine"});
+    const auto keys = header("a.exr");
+    EXPECT_EQ(keys.at("option:nee"), "off");
+    EXPECT_EQ(keys.at("option:sampler"), "independent");
+    EXPECT_EQ(keys.at("option:hemisphere"), "cosine");
+}
+
 TEST_F(Render, InterruptionWritesTheImageSoFar) {
     const uint32_t asked = 1'000'000;
     const ProgramResult result = test::interruptLavalight(

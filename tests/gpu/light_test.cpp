@@ -58,6 +58,18 @@ double solidAngle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c)
                             la * lb * lc + glm::dot(a, b) * lc + glm::dot(a, c) * lb + glm::dot(b, c) * la);
 }
 
+// Over kSamples samples.
+struct SampleSums {
+    double sum = 0.0;
+    double squares = 0.0;
+    void add(double value) {
+        sum += value;
+        squares += value * value;
+    }
+    [[nodiscard]] double mean() const { return sum / kSamples; }
+    [[nodiscard]] double variance() const { return squares / kSamples - mean() * mean(); }
+};
+
 class LightTest : public DeviceTest {
   protected:
     std::vector<Answer> sample(const Scene& scene, const glm::vec3& from) {
@@ -105,18 +117,47 @@ TEST_F(LightTest, EmissionOverPdfIntegratesToRadianceTimesSolidAngle) {
             std::abs(solidAngle(glm::dvec3(mesh.positions[0] - from), glm::dvec3(mesh.positions[1] - from),
                                 glm::dvec3(mesh.positions[2] - from))) *
             scene.materials[mesh.material].emission.x;
-    double sum = 0.0;
-    double squares = 0.0;
+    SampleSums sums;
     for (const Answer& answer : sample(scene, from)) {
         ASSERT_NEAR(glm::length(answer.wi), 1.0f, 1e-5f);
-        const double value = answer.radiance.x / answer.pdf;
-        sum += value;
-        squares += value * value;
+        sums.add(answer.radiance.x / answer.pdf);
     }
-    const double mean = sum / kSamples;
-    const double standardError = std::sqrt((squares / kSamples - mean * mean) / kSamples);
-    EXPECT_NEAR(mean, expected, 4.0 * standardError);
+    const double standardError = std::sqrt(sums.variance() / kSamples);
+    EXPECT_NEAR(sums.mean(), expected, 4.0 * standardError);
     EXPECT_LT(standardError, 0.005 * expected); // the comparison means something
+}
+
+// Irradiance at a hundredth of the light's width below its middle: by area, the few points right above carry
+// it all.
+TEST_F(LightTest, NearALargeQuadTheVarianceIsATenthOfThatOfAreaSampling) {
+    constexpr float kDistance = 0.01f; // of a square with sides of 1
+    Material material;
+    material.emission = glm::vec3(1.0f);
+    Scene scene;
+    scene.materials.push_back(material);
+    scene.meshes.push_back({"quad",
+                            0,
+                            {{-0.5f, -0.5f, kDistance},
+                             {-0.5f, 0.5f, kDistance},
+                             {0.5f, 0.5f, kDistance},
+                             {0.5f, -0.5f, kDistance}},
+                            {},
+                            {{0, 1, 2}, {0, 2, 3}}});
+    SampleSums ours;
+    for (const Answer& answer :
+         sample(scene, {0.03f, 0.01f, 0.0f})) // off the diagonal, which has no density of its own
+        ours.add(answer.radiance.x * std::max(answer.wi.z, 0.0f) / answer.pdf);
+    SampleSums byArea;
+    Random random(3);
+    for (size_t i = 0; i < kSamples; ++i) {
+        const glm::dvec3 d(random.unit() - 0.53, random.unit() - 0.51, kDistance);
+        const double distance2 = glm::dot(d, d);
+        byArea.add(kDistance * kDistance /
+                   (distance2 * distance2)); // both cosines over distance^2; the area is 1
+    }
+    EXPECT_NEAR(ours.mean(), byArea.mean(),
+                4.0 * std::sqrt((ours.variance() + byArea.variance()) / kSamples));
+    EXPECT_LT(ours.variance(), 0.1 * byArea.variance()) << "area: " << byArea.variance();
 }
 
 TEST_F(LightTest, SingleSidedEmittersDoNotShineBackwards) {

@@ -1,6 +1,7 @@
 // Direct light from a rectangle, against the form factor known in closed form.
 #include <cmath>
 #include <numbers>
+#include <ostream>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -60,6 +61,10 @@ struct Strategy {
     bool nee;
     Mis mis;
 };
+
+std::ostream& operator<<(std::ostream& out, const Strategy& strategy) {
+    return out << strategy.name;
+}
 
 class DirectLight : public DeviceTest, public testing::WithParamInterface<Strategy> {
   protected:

@@ -1,5 +1,6 @@
 // Furnaces: scenes in which every direction has the same known radiance.
 #include <cmath>
+#include <ostream>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -92,6 +93,10 @@ struct Gloss {
     bool isSmooth;
 };
 
+std::ostream& operator<<(std::ostream& out, const Gloss& gloss) {
+    return out << gloss.name;
+}
+
 class GlossyFurnace : public DeviceTest, public testing::WithParamInterface<Gloss> {};
 
 // "Never above 1" holds tile by tile. The dielectric's base is white, so that it reflects all that the
@@ -130,6 +135,10 @@ struct Strategy {
     Mis mis;
     Roulette roulette;
 };
+
+std::ostream& operator<<(std::ostream& out, const Strategy& strategy) {
+    return out << strategy.name;
+}
 
 // A closed body that glows with e and reflects the share a of what arrives holds e + a e + a^2 e + ...
 // everywhere.

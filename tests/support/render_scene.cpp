@@ -44,9 +44,10 @@ RenderSettings imageSettings(uint32_t width, uint32_t height, uint32_t samples) 
     return settings;
 }
 
-RenderResult renderScene(gpu::Device& device, const Scene& scene, const RenderSettings& settings) {
+RenderResult renderScene(gpu::Device& device, const Scene& scene, const RenderSettings& settings,
+                         const KernelSource& kernels) {
     checkSettings(settings);
-    Renderer renderer(device, scene, scene.cameras.front(), settings);
+    Renderer renderer(device, scene, scene.cameras.front(), settings, kernels);
     renderer.render([](double) { return true; });
     return {renderer.rendering(), renderer.film().readTallies(), wordsOf(renderer.film())};
 }

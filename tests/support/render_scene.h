@@ -12,6 +12,7 @@
 #include "image/statistics.h"
 #include "render/film.h"
 #include "render/settings.h"
+#include "render/wavefront.h"
 #include "scene/scene.h"
 
 namespace lavalight::test {
@@ -27,7 +28,8 @@ struct RenderResult {
 
 // All samples of the settings, seen from the scene's first camera.
 [[nodiscard]] RenderResult renderScene(gpu::Device& device, const Scene& scene,
-                                       const RenderSettings& settings);
+                                       const RenderSettings& settings,
+                                       const KernelSource& kernels = embeddedKernel);
 
 // Words of the film that both films' samples together would have left behind.
 [[nodiscard]] std::vector<uint32_t> sumOfFilms(const std::vector<uint32_t>& a,

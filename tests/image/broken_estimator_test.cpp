@@ -1,0 +1,75 @@
+// Estimators broken on purpose: the test that compares means has to notice, or it proves nothing.
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <sstream>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "gpu/shader_build.h"
+#include "scene/builtin.h"
+#include "support/mean_test.h"
+#include "support/render_scene.h"
+#include "support/temporary_folder.h"
+#include "support/test_device.h"
+
+namespace lavalight::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The kernel shade from a copy of its source in which `from`, found exactly once, reads `to`.
+gpu::KernelCode brokenShade(const std::string& from, const std::string& to) {
+    const TemporaryFolder folder;
+    fs::copy(fs::path(LAVALIGHT_SOURCE_DIR) / "shaders", folder.path(),
+             fs::copy_options::recursive | fs::copy_options::overwrite_existing);
+    const fs::path file = folder.path() / "kernels/shade.comp";
+    std::stringstream buffer;
+    buffer << std::ifstream(file).rdbuf();
+    std::string source = buffer.str();
+    const size_t at = source.find(from);
+    if (at == std::string::npos || source.find(from, at + 1) != std::string::npos)
+        throw std::runtime_error("shade.comp does not hold exactly one \"" + from + "\"");
+    source.replace(at, from.size(), to);
+    std::ofstream(file) << source;
+    return gpu::compileKernel(file, folder.path());
+}
+
+class BrokenEstimatorTest : public DeviceTest {
+  protected:
+    // Size and samples are those of the estimators' test.
+    void expectNotice(const std::string& sceneName, const std::string& from, const std::string& to) {
+        const Scene scene = loadScene(sceneName);
+        RenderSettings settings = imageSettings(32, 32, 4096);
+        settings.waveSize = 262144;
+        const RenderResult sound = renderScene(device(), scene, settings);
+        settings.estimator.seed = 1;
+        const RenderResult broken = renderScene(device(), scene, settings, [&](std::string_view name) {
+            return name == "shade" ? brokenShade(from, to) : embeddedKernel(name);
+        });
+        const MeanComparison comparison = compareMeans(broken.rendering, sound.rendering);
+        std::cout << sceneName << ": " << comparison.text() << "\n";
+        EXPECT_FALSE(comparison.same()) << comparison.text();
+    }
+};
+
+TEST_F(BrokenEstimatorTest, RouletteThatDoesNotMakeUpForTheDeadIsNoticed) {
+    expectNotice("cornell-box", "path.throughput /= survival;", "");
+}
+
+TEST_F(BrokenEstimatorTest, ADensityOffByFivePercentIsNoticed) {
+    expectNotice("cornell-box", "(weight / light.pdf)", "(weight / (1.05 * light.pdf))");
+}
+
+TEST_F(BrokenEstimatorTest, WeightsThatDoNotSumToOneAreNoticed) {
+    expectNotice("veach-mis", "misWeight(kMis, bsdfPdf, lightPdf)",
+                 "misWeight(kMisBalance, bsdfPdf, lightPdf)");
+}
+
+TEST_F(BrokenEstimatorTest, LightThatCountsTwiceIsNoticed) {
+    expectNotice("cornell-box", "kMis == kMisOff ? 0.0 : misWeight(kMis, bsdfPdf, lightPdf)", "1.0");
+}
+
+} // namespace
+} // namespace lavalight::test

@@ -1,0 +1,36 @@
+// Estimators that must agree: the default with one setting changed, and every combination of settings.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "gpu/device.h"
+#include "render/settings.h"
+#include "scene/scene.h"
+
+namespace lavalight::test {
+
+// `name` is what the command line would say.
+struct Variant {
+    std::string name;
+    EstimatorSettings settings;
+};
+
+// All have the sampler `independent`, as Z-tests suppose.
+[[nodiscard]] Variant defaultVariant();
+
+// Each setting of the estimator at each value that must not change the mean, one at a time; seed 1, so that
+// images are independent of one at seed 0.
+[[nodiscard]] std::vector<Variant> singleVariants();
+
+// Hemisphere, NEE, light selection, MIS, roulette, survival in MIS: every combination that checkSettings
+// permits; seed 1.
+[[nodiscard]] std::vector<Variant> allVariants();
+
+// Renders the default and all variants, 32 x 32 pixels, and fails where one has another mean, or where fewer
+// than leastShare of the tiles are precise enough to say so. Prints a line for each variant.
+void expectOneMean(gpu::Device& device, const Scene& scene, const std::vector<Variant>& variants,
+                   uint32_t samples, double leastShare);
+
+} // namespace lavalight::test
