@@ -38,11 +38,11 @@ gpu::KernelCode brokenShade(const std::string& from, const std::string& to) {
 
 class BrokenEstimatorTest : public DeviceTest {
   protected:
-    // Size and samples are those of the estimators' test.
-    void expectNotice(const std::string& sceneName, const std::string& from, const std::string& to) {
+    void expectNotice(const std::string& sceneName, const std::string& from, const std::string& to,
+                      uint32_t samples = 1024) {
         const Scene scene = loadScene(sceneName);
-        RenderSettings settings = imageSettings(32, 32, 4096);
-        settings.waveSize = 262144;
+        RenderSettings settings = imageSettings(32, 32, samples);
+        settings.waveSize = 262144; // as the estimators' test
         const RenderResult sound = renderScene(device(), scene, settings);
         settings.estimator.seed = 1;
         const RenderResult broken = renderScene(device(), scene, settings, [&](std::string_view name) {
@@ -64,7 +64,7 @@ TEST_F(BrokenEstimatorTest, ADensityOffByFivePercentIsNoticed) {
 
 TEST_F(BrokenEstimatorTest, WeightsThatDoNotSumToOneAreNoticed) {
     expectNotice("veach-mis", "misWeight(kMis, bsdfPdf, lightPdf)",
-                 "misWeight(kMisBalance, bsdfPdf, lightPdf)");
+                 "misWeight(kMisBalance, bsdfPdf, lightPdf)", 4096);
 }
 
 TEST_F(BrokenEstimatorTest, LightThatCountsTwiceIsNoticed) {

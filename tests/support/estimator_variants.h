@@ -28,6 +28,11 @@ struct Variant {
 // permits; seed 1.
 [[nodiscard]] std::vector<Variant> allVariants();
 
+// Those of the variants whose error thousands of samples can judge on a built-in scene: not light samples
+// alone on Veach's plates, whose mirror-like highlights they find so seldom that neither mean nor variance
+// shows it.
+[[nodiscard]] std::vector<Variant> answerable(const std::string& scene, std::vector<Variant> variants);
+
 // Renders the default and all variants, 32 x 32 pixels, and fails where one has another mean, or where fewer
 // than leastShare of the tiles are precise enough to say so. Prints a line for each variant.
 void expectOneMean(gpu::Device& device, const Scene& scene, const std::vector<Variant>& variants,

@@ -26,9 +26,9 @@ double sumOf(const Image& variance, glm::length_t channel) {
     return sum;
 }
 
-// Of the tiles that count. Whether one does must not depend on its own samples of `image`: those that seem
-// precise by luck are those that missed rare bright samples, and too dark. So the reference's variance
-// decides, times as much as the image as a whole has more.
+// Of the tiles that count: by the image's own variance, and by the reference's, times as much as the image as
+// a whole has more of it. The first alone would prefer tiles that missed rare bright samples, which seem
+// precise and are too dark; the second alone would not see where an estimator is worse than elsewhere.
 std::vector<Difference> tileDifferences(const Rendering& image, const Rendering& reference, uint32_t side,
                                         glm::length_t channel) {
     const Rendering ti = downsample(image, side);
@@ -39,12 +39,12 @@ std::vector<Difference> tileDifferences(const Rendering& image, const Rendering&
     for (size_t i = 0; i < tr.radiance.pixels.size(); ++i) {
         const double mean = tr.radiance.pixels[i][channel];
         const double variance = tr.variance.pixels[i][channel];
-        if (!(std::sqrt(noisier * variance) < kPrecision * mean))
+        const double own = ti.variance.pixels[i][channel];
+        if (!(std::sqrt(std::max(noisier * variance, own)) < kPrecision * mean))
             continue;
         // What has no noise, as emission seen directly, is rounded all the same: half a unit in the last
         // place each.
-        const double deviation =
-            std::sqrt(variance + double{ti.variance.pixels[i][channel]}) / mean + 0x1p-23;
+        const double deviation = std::sqrt(variance + own) / mean + 0x1p-23;
         differences.push_back({ti.radiance.pixels[i][channel] / mean - 1.0, deviation,
                                fmt::format("tile {} of {} pixels a side, channel {}", i, side, channel)});
     }
