@@ -63,13 +63,11 @@ Scene loadScene(const std::string& nameOrPath) {
                                     kMostTriangles));
         return makeDenseScene(*triangles);
     }
-    if (nameOrPath.empty())
-        throw Error("cannot read the scene: its name is empty");
     std::error_code code;
     if (!std::filesystem::exists(nameOrPath, code))
-        throw Error(
-            fmt::format("cannot read {}: no such file, and no built-in scene of that name (built in: {})",
-                        nameOrPath, fmt::join(builtinNames(), ", ")));
+        throw Error(fmt::format("cannot read {}: no such file, and no built-in scene of that name (built in: {})",
+                                nameOrPath.empty() ? "a scene without a name" : nameOrPath,
+                                fmt::join(builtinNames(), ", ")));
     return importGltf(nameOrPath);
 }
 

@@ -66,6 +66,33 @@ TEST_F(Info, CountsWhatTheFileHolds) {
     EXPECT_GE(info.at("geometryBytes"), 3 * 12 + 12);
 }
 
+TEST_F(Info, ListsTheLightsWithoutSize) {
+    json gltf = json::parse(kTriangle);
+    gltf["extensionsUsed"] = {"KHR_lights_punctual"};
+    gltf["extensions"] = {{"KHR_lights_punctual",
+                           {{"lights",
+                             {{{"type", "spot"},
+                               {"name", "lamp"},
+                               {"intensity", 3.0},
+                               {"spot", {{"innerConeAngle", 0.0}, {"outerConeAngle", 0.5235987755982988}}}},
+                              {{"type", "directional"}, {"name", "sun"}, {"color", {1.0, 0.5, 0.25}}}}}}}};
+    gltf["nodes"].push_back(
+        {{"translation", {1, 2, 3}}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+    gltf["nodes"].push_back({{"extensions", {{"KHR_lights_punctual", {{"light", 1}}}}}});
+    gltf["scenes"][0]["nodes"] = {0, 1, 2};
+    writeFileAtomically(folder_ / "lit.gltf", gltf.dump());
+    const std::string text = run({"info", "lit.gltf"}).out;
+    EXPECT_NE(text.find("\"lamp\": spot"), std::string::npos) << text;
+    const json lights = json::parse(run({"info", "lit.gltf", "--json"}).out).at("punctualLights");
+    ASSERT_EQ(lights.size(), 2u);
+    EXPECT_EQ(lights.at(0).at("position"), json({1, 2, 3}));
+    EXPECT_EQ(lights.at(0).at("direction"), json({0, 0, -1}));
+    EXPECT_NEAR(lights.at(0).at("outerConeDegrees").get<double>(), 30.0, 1e-4);
+    EXPECT_EQ(lights.at(1).at("kind"), "directional");
+    EXPECT_EQ(lights.at(1).at("intensity"), json({1.0, 0.5, 0.25}));
+    EXPECT_FALSE(lights.at(1).contains("position"));
+}
+
 TEST_F(Info, NamesTheExtensionsThatItIgnores) {
     writeFileAtomically(folder_ / "triangle.gltf", kTriangle);
     const json info = json::parse(run({"info", "triangle.gltf", "--json"}).out);

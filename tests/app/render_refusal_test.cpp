@@ -62,7 +62,7 @@ TEST_F(RenderRefusal, SceneThatIsNoFile) {
     expectSceneRefusal("none.glb", "none.glb");
     expectSceneRefusal("cornell-bx", "cornell-bx");
     expectSceneRefusal(".", "directory");
-    expectSceneRefusal("", "empty");
+    expectSceneRefusal("", "a scene without a name");
 }
 
 TEST_F(RenderRefusal, SceneThatIsNoGltf) {
