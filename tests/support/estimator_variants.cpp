@@ -15,7 +15,7 @@ namespace {
 using Change = std::function<void(EstimatorSettings&)>;
 
 constexpr uint32_t kSide = 32;
-constexpr uint32_t kMaxBounces = 8; // of all that is compared: without roulette, paths would run on to 64
+constexpr uint32_t kMaxBounces = 5; // of all that is compared: without roulette, paths would run on to 64
 constexpr uint32_t kWaveSize =
     262144; // fewer, larger waves: 1.2 times as fast as the default for small images
 
