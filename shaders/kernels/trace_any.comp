@@ -11,6 +11,5 @@ void main() {
     if (i >= shadowRays.length())
         return;
     const ShadowRay ray = shadowRays[i];
-    const bool any = intersectAny(ray.origin, ray.direction, 1.0, RayFilter(false, ray.fromTriangle, ray.toTriangle));
-    occluded[i] = any ? 1u : 0u;
+    occluded[i] = intersectAny(ray.origin, ray.direction, 1.0, RayFilter(false, ray.fromTriangle, ray.toTriangle)) ? 1u : 0u;
 }

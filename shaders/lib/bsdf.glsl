@@ -14,6 +14,7 @@
 #include "lib/bsdf_diffuse.glsl"
 #include "lib/bsdf_glass.glsl"
 #include "lib/bsdf_specular.glsl"
+#include "lib/features.glsl"
 
 // x, y: directional albedo of the GGX lobe is f0 * x + f90 * y at this cosine. From scene/albedo_table.glsl.
 vec2 specularAlbedoTerms(float cosTheta, float alpha);
@@ -38,22 +39,27 @@ struct BsdfSample {
 };
 
 bool hasSpecular(Surface s) {
-    return s.f90 > 0.0 || s.f0 != vec3(0.0);
+    return sceneHas(kFeatureSpecular) && (s.f90 > 0.0 || s.f0 != vec3(0.0));
 }
 
+bool hasGlass(Surface s) {
+    return sceneHas(kFeatureGlass) && s.glassShare > 0.0;
+}
+
+// Of its specular and glass lobes, if there are any.
 bool isSmooth(Surface s) {
-    return s.alpha < kSmoothAlpha;
+    return !sceneHas(kFeatureRoughLobes) || (sceneHas(kFeatureSmoothLobes) && s.alpha < kSmoothAlpha);
 }
 
 // Whether there is anything for light sampling to find.
 bool hasNonDelta(Surface s) {
-    return s.diffuse != vec3(0.0) || (!isSmooth(s) && (hasSpecular(s) || s.glassShare > 0.0));
+    return s.diffuse != vec3(0.0) || (!isSmooth(s) && (hasSpecular(s) || hasGlass(s)));
 }
 
 // Share of light that the dielectric coating lets through to the diffuse base, (1 - E(wo)) (1 - E(wi)) / (1 - Eavg):
 // reciprocal, and the base then reflects exactly (1 - E(wo)) * diffuse.
 float coupling(Surface s, float cosO, float cosI) {
-    if (s.coating.y <= 0.0)
+    if (!sceneHas(kFeatureSpecular) || s.coating.y <= 0.0)
         return 1.0;
     const float eo = dot(s.coating, specularAlbedoTerms(cosO, s.alpha));
     const float ei = dot(s.coating, specularAlbedoTerms(cosI, s.alpha));
@@ -67,7 +73,7 @@ float meanOf(vec3 v) {
 
 // Probabilities of drawing the specular (x) and the glass lobe (y), by their shares of the directional albedo.
 vec2 lobeProbabilities(Surface s, vec3 wo) {
-    if (!hasSpecular(s) && s.glassShare <= 0.0)
+    if (!hasSpecular(s) && !hasGlass(s))
         return vec2(0.0);
     const vec2 terms = specularAlbedoTerms(wo.z, s.alpha);
     const float specular = meanOf(s.f0) * terms.x + s.f90 * terms.y;
@@ -77,7 +83,7 @@ vec2 lobeProbabilities(Surface s, vec3 wo) {
 
 // What roulette by albedo goes by: base colour for Lambert, F0 for metal, 1 for glass, the tabulated albedo for layers.
 vec3 directionalAlbedo(Surface s, vec3 wo) {
-    if (s.coating.y <= 0.0)
+    if (!sceneHas(kFeatureSpecular) || s.coating.y <= 0.0)
         return s.diffuse + s.f0 + s.glassShare;
     const vec2 terms = specularAlbedoTerms(wo.z, s.alpha);
     return s.diffuse * (1.0 - dot(s.coating, terms)) + s.f0 * terms.x + s.f90 * terms.y + s.glassShare;
@@ -93,7 +99,7 @@ vec3 evalBsdf(Surface s, vec3 wo, vec3 wi) {
         return value;
     if (wi.z > 0.0 && hasSpecular(s))
         value += evalSpecular(s.f0, s.f90, s.alpha, wo, wi);
-    if (s.glassShare > 0.0)
+    if (hasGlass(s))
         value += s.glassShare * evalGlass(s.glass, wo, wi);
     return value;
 }
@@ -105,9 +111,9 @@ float pdfBsdf(Surface s, vec3 wo, vec3 wi) {
     float pdf = wi.z > 0.0 ? (1.0 - p.x - p.y) * pdfDiffuse(wi) : 0.0;
     if (isSmooth(s))
         return pdf;
-    if (p.x > 0.0 && wi.z > 0.0)
+    if (sceneHas(kFeatureSpecular) && p.x > 0.0 && wi.z > 0.0)
         pdf += p.x * pdfSpecular(s.alpha, wo, wi);
-    if (p.y > 0.0)
+    if (sceneHas(kFeatureGlass) && p.y > 0.0)
         pdf += p.y * pdfGlass(s.glass, wo, wi);
     return pdf;
 }
@@ -129,17 +135,15 @@ BsdfSample sampleBsdf(Surface s, vec3 wo, vec2 u, float lobe) {
     if (wo.z <= 0.0)
         return kAbsorbed;
     const vec2 p = lobeProbabilities(s, wo);
-    const bool isGlass = lobe < p.y;
-    const bool isSpecular = !isGlass && lobe < p.x + p.y;
-    if (isSmooth(s) && (isGlass || isSpecular))
+    const bool isGlass = sceneHas(kFeatureGlass) && lobe < p.y;
+    const bool isSpecular = sceneHas(kFeatureSpecular) && !isGlass && lobe < p.x + p.y;
+    if (sceneHas(kFeatureSmoothLobes) && isSmooth(s) && (isGlass || isSpecular))
         return sampleSmooth(s, wo, isGlass, lobe / max(p.y, 1e-20), isGlass ? p.y : p.x);
-    vec3 wi;
-    if (isGlass)
+    vec3 wi = sampleDiffuse(u);
+    if (sceneHas(kFeatureRoughLobes) && isGlass)
         wi = sampleGlass(s.glass, wo, u, lobe / p.y);
-    else if (isSpecular)
+    if (sceneHas(kFeatureRoughLobes) && isSpecular)
         wi = sampleSpecular(u, wo, s.alpha);
-    else
-        wi = sampleDiffuse(u);
     const float pdf = pdfBsdf(s, wo, wi);
     if (pdf <= 0.0)
         return kAbsorbed;

@@ -2,10 +2,7 @@
 // Based on: Walter et al., "Microfacet Models for Refraction", EGSR 2007; Heitz, "Understanding the Masking-Shadowing
 // Function", JCGT 3(2), 2014; Dupuy, Benyoub, "Sampling Visible GGX Normals with Spherical Caps", HPG 2023.
 #include "lib/constants.glsl"
-
-// Below this alpha the lobe is a mirror: at 1e-3 it is 0.1 degrees wide, and D's peak of 1/(pi alpha^2) would
-// cost more noise than the width is worth.
-const float kSmoothAlpha = 1e-3;
+#include "shared/scene.h"
 
 // Walter 2007, eq. 33, with m a unit vector: D(m).
 float ggxD(vec3 m, float alpha) {

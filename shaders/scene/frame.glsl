@@ -7,6 +7,10 @@
 layout(set = 0, binding = BINDING_FRAME, std430) readonly buffer Frame { FrameParameters frame; };
 layout(push_constant) uniform Push { WaveRange range; };
 
+uint slotCount() {
+    return range.pixelCount * range.sampleCount;
+}
+
 uint pixelOfSlot(uint slot) {
     return range.firstPixel + slot / range.sampleCount;
 }

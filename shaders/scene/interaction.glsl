@@ -1,4 +1,5 @@
 // From a hit to the geometry of the surface there.
+#include "lib/features.glsl"
 #include "lib/octahedral.glsl"
 #include "lib/ray_offset.glsl"
 #include "scene/leaf_triangle.glsl"
@@ -21,7 +22,7 @@ struct Interaction {
 };
 
 vec3 shadingNormal(LeafTriangle triangle, vec3 b, vec3 ng) {
-    if ((triangle.material & kFlatBit) != 0u)
+    if (!sceneHas(kFeatureShadingNormals) || (triangle.material & kFlatBit) != 0u)
         return ng;
     const uvec4 packedNormals = texelFetch(triangleNormals, int(triangle.triangle));
     const vec3 n = b.x * decodeOctahedral(packedNormals.x) + b.y * decodeOctahedral(packedNormals.y) +

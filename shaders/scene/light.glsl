@@ -1,4 +1,5 @@
 // Lights: picking one, sampling it from a point, and the density with which that finds a direction.
+#include "lib/features.glsl"
 #include "lib/onb.glsl"
 #include "lib/random.glsl"
 #include "scene/punctual_light.glsl"
@@ -59,12 +60,12 @@ LightSample sampleLight(FrameParameters frame, Receiver receiver, uint pickBits,
     const uint kind = record.source >> kLightKindShift;
     const uint index = record.source & kLightIndexMask;
     const float reach = 2.0 * (frame.sceneRadius + distance(receiver.p, frame.sceneCenter));
-    LightSample light;
-    if (kind == kLightTriangle)
+    LightSample light = kNoLightSample;
+    if (sceneHas(kFeatureTriangleLights) && kind == kLightTriangle)
         light = sampleTriangleLight(receiver.p, u, index);
-    else if (kind == kLightPunctual)
+    if (sceneHas(kFeaturePunctualLights) && kind == kLightPunctual)
         light = samplePunctualLight(receiver.p, index, reach);
-    else
+    if (sceneHas(kFeatureEnvironment) && kind == kLightEnvironment)
         light = sampleEnvironment(receiver, u, frame.environment, reach);
     light.pdf *= record.pmf;
     return light;

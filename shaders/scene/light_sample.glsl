@@ -1,4 +1,5 @@
 // What sampling a light from a point gives.
+#include "shared/wavefront.h"
 
 struct LightSample {
     vec3 end;      // of the shadow ray
@@ -8,3 +9,5 @@ struct LightSample {
     bool isDelta;  // a BSDF ray cannot find it
     uint triangle; // id that the shadow ray ends on, or kNoTriangle
 };
+
+const LightSample kNoLightSample = LightSample(vec3(0.0), vec3(0.0, 0.0, 1.0), vec3(0.0), 1.0, true, kNoTriangle);

@@ -20,6 +20,8 @@
 #define BINDING_QUEUES 13
 #define BINDING_COUNTERS 14
 #define BINDING_DISPATCH_SIZES 15
+#define BINDING_LANES 19
+#define BINDING_LANE_COUNTERS 20
 
 // Film of one band and what happened to it.
 #define BINDING_FILM 16

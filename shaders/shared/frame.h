@@ -37,6 +37,7 @@ struct FrameParameters {
 #define CONSTANT_ROULETTE 4
 #define CONSTANT_MIS_SURVIVAL 5
 #define CONSTANT_FRESNEL 6
+#define CONSTANT_FEATURES 7 // of the scene, not of the estimator (lib/features.glsl)
 
 // Values of those constants; the C++ enumerations use the same numbers.
 SHARED_CONST uint kSamplerSobol = 0u;

@@ -62,6 +62,21 @@ SHARED_CONST uint kPunctualPoint = 0u;
 SHARED_CONST uint kPunctualSpot = 1u;
 SHARED_CONST uint kPunctualDirectional = 2u;
 
+// Below this alpha (= roughness^2) a lobe is a mirror, or a pane: at 1e-3 it is 0.1 degrees wide, and D's peak of
+// 1 / (pi alpha^2) would cost more noise than the width is worth.
+SHARED_CONST float kSmoothAlpha = 1e-3f;
+
+// What a scene may have or not: bits of the specialisation constant of lib/features.glsl.
+SHARED_CONST uint kFeatureSpecular = 1u;       // a surface that is not pure Lambert
+SHARED_CONST uint kFeatureGlass = 2u;          // a transmissive one
+SHARED_CONST uint kFeatureRoughLobes = 4u;     // such a lobe with alpha of kSmoothAlpha or more
+SHARED_CONST uint kFeatureSmoothLobes = 8u;    // with less
+SHARED_CONST uint kFeatureShadingNormals = 16u;
+SHARED_CONST uint kFeatureTriangleLights = 32u;
+SHARED_CONST uint kFeaturePunctualLights = 64u;
+SHARED_CONST uint kFeatureEnvironment = 128u;
+SHARED_CONST uint kAllFeatures = 255u;
+
 // Directional albedo of the GGX lobe, tabulated over (sqrt(cosine), roughness); a row ends with its cosine-weighted average.
 SHARED_CONST uint kAlbedoCosines = 64u;
 SHARED_CONST uint kAlbedoRoughnesses = 32u;

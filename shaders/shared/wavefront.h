@@ -42,6 +42,26 @@ struct ShadowRay {
     float unused;
 };
 
+// Where an invocation of the fused kernel stands with its slots, from dispatch to dispatch.
+struct Lane {
+    Ray ray;
+    uint slot;
+    uint bounce; // 0: the path of the slot is yet to start
+    uint unused[2];
+};
+
+// Vertices that an invocation of the fused kernel goes on for in one dispatch. Mesa 22.3's lavapipe ends all loops of an
+// invocation, without a word, after 65,535 turns in sum; a vertex took XXX on three million triangles.
+SHARED_CONST uint kVerticesPerDispatch = 64u;
+
+// What the fused kernel counts over the dispatches of a wave.
+struct LaneCounters {
+    uint indirectRays;
+    uint shadowRays;
+    uint unfinished; // lanes that want another dispatch; cleared before each
+    uint unused;
+};
+
 // Queue lengths of one bounce. Counters of all bounces are cleared once per wave.
 struct BounceCounters {
     uint rays;
@@ -65,6 +85,8 @@ struct WaveRange {
     uint sampleCount;
     uint bandFirstPixel; // the film at hand starts with this pixel
     uint bounce;
+    uint slotsPerLane; // fused kernel: consecutive slots that an invocation takes, one after another
+    uint isFirst;      // fused kernel: lanes start anew
 };
 
 LAVALIGHT_SHARED_END

@@ -91,8 +91,8 @@ void fillInputs(RenderReport& report, const Scene& scene, const Camera& camera,
 void fillResults(RenderReport& report, const Renderer& renderer, const gpu::Device& device,
                  const Rendering& rendering) {
     report.device = device.description();
-    report.kernels = renderer.wavefront().kernelTimes();
-    report.rays = renderer.wavefront().rays();
+    report.kernels = renderer.waves().kernelTimes();
+    report.rays = renderer.waves().rays();
     report.tallies = renderer.film().readTallies();
     report.sceneBytes = renderer.scene().bytes();
     report.peakDeviceBytes = device.peakAllocatedBytes();
@@ -180,7 +180,7 @@ int RenderCommand::run() {
     failOnValidation(device);
 
     const Rendering rendering = renderer.rendering();
-    fillInputs(report, scene, camera, settings);
+    fillInputs(report, scene, camera, renderer.settings());
     fillResults(report, renderer, device, rendering);
     report.ledger = makeLedger(scene, settings, report.tallies, report.stop);
     writeImages(rendering, report);

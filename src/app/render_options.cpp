@@ -171,7 +171,9 @@ void RenderOptions::declareDevice(CLI::App& parser) {
         ->transform(oneOf(kinds))
         ->default_str("any");
     parser.add_flag("--validate", device_.validate, "Run the Vulkan validation layer; any message fails the render");
-    parser.add_option("--wave-size", settings_.waveSize, "Paths in flight; changes no bit of the image")->type_name("N");
+    addNamed(parser, "--kernels", settings_.kernels, "One kernel for whole paths, or one for each step; auto: by device");
+    parser.add_option("--wave-size", settings_.waveSize, "Paths in flight; 0: by the kernels; changes no bit of the image")
+        ->type_name("N");
     parser.add_option("--band-rows", settings_.bandRows,
                       "Rows of a film band; 0: as many as fit; changes no bit of the image")
         ->type_name("N");

@@ -93,7 +93,7 @@ RenderRun RenderBench::measure(const EstimatorSettings& estimator, uint32_t samp
     RenderRun run;
     run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     run.samples = samples;
-    run.rays = renderer.wavefront().rays();
+    run.rays = renderer.waves().rays();
     addFilm(run, renderer.rendering(), measured_);
     return run;
 }

@@ -9,7 +9,7 @@
 #include "gpu/device.h"
 #include "lab/table.h"
 #include "render/settings.h"
-#include "render/wavefront.h"
+#include "render/wave_renderer.h"
 #include "scene/scene.h"
 
 namespace lavalight {

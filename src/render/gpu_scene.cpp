@@ -6,6 +6,7 @@
 #include "accel/triangle.h"
 #include "render/albedo_table.h"
 #include "render/octahedral.h"
+#include "render/scene_features.h"
 #include "shared/scene.h"
 
 namespace lavalight {
@@ -117,6 +118,7 @@ struct GpuScene::Prepared {
     std::vector<LightRecord> lights;
     std::vector<PunctualRecord> punctuals;
     uint32_t environmentLight;
+    uint32_t features;
 };
 
 GpuScene::Prepared GpuScene::prepare(const Scene& scene, const Lights& lights) {
@@ -129,6 +131,7 @@ GpuScene::Prepared GpuScene::prepare(const Scene& scene, const Lights& lights) {
     prepared.lights = packLights(lights, prepared.bvh);
     prepared.punctuals = packPunctuals(scene, lights);
     prepared.environmentLight = lights.environment.value_or(kNoLight);
+    prepared.features = sceneFeatures(scene, lights);
     return prepared;
 }
 
@@ -148,6 +151,7 @@ GpuScene::GpuScene(gpu::Device& device, const Scene& scene, const glm::vec3& env
 
 GpuScene::GpuScene(gpu::Device& device, const Prepared& prepared)
     : lightCount_(static_cast<uint32_t>(prepared.lights.size())), environmentLight_(prepared.environmentLight),
+      features_(prepared.features),
       bvhSeconds_(prepared.bvh.buildSeconds),
       nodes_(uploadTexels(device, "BVH nodes", prepared.bvh.nodes)),
       leafTriangles_(uploadTexels(device, "leaf triangles", prepared.leafTriangles)),

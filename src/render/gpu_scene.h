@@ -24,6 +24,8 @@ class GpuScene {
     [[nodiscard]] uint32_t lightCount() const { return lightCount_; }
     // Number of the environment among the lights, or kNoLight.
     [[nodiscard]] uint32_t environmentLight() const { return environmentLight_; }
+    // kFeature... bits: what kernels for this scene need to know of.
+    [[nodiscard]] uint32_t features() const { return features_; }
     [[nodiscard]] double bvhSeconds() const { return bvhSeconds_; }
     [[nodiscard]] uint64_t bytes() const;
 
@@ -34,6 +36,7 @@ class GpuScene {
 
     uint32_t lightCount_;
     uint32_t environmentLight_;
+    uint32_t features_;
     double bvhSeconds_;
     gpu::Buffer nodes_;
     gpu::Buffer leafTriangles_;

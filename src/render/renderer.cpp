@@ -21,6 +21,10 @@ glm::vec3 environmentOf(const Scene& scene, const RenderSettings& settings) {
     return settings.environment.value_or(scene.environment);
 }
 
+// Slots of a wave where the settings leave it open, measured on lavapipe with two threads.
+constexpr uint32_t kFusedWave = 1u << 20;
+constexpr uint32_t kWavefrontWave = 1u << 18;
+
 // Samples that a pixel takes while it is in the wave: they share one update of its film words, and the vector
 // units trace their camera rays together.
 constexpr uint32_t kSamplesTogether = 16;
@@ -45,6 +49,14 @@ RenderSettings resolveSize(RenderSettings settings, const Camera& camera) {
         const float width = std::round(static_cast<float>(settings.height) * aspect);
         settings.width = static_cast<uint32_t>(std::clamp(width, 1.0f, static_cast<float>(kMaxImageSide)));
     }
+    return settings;
+}
+
+RenderSettings resolveKernels(RenderSettings settings, bool isCpu) {
+    if (settings.kernels == Kernels::automatic)
+        settings.kernels = isCpu ? Kernels::fused : Kernels::wavefront;
+    if (settings.waveSize == 0)
+        settings.waveSize = settings.kernels == Kernels::fused ? kFusedWave : kWavefrontWave;
     return settings;
 }
 
@@ -75,11 +87,11 @@ FrameParameters makeFrame(const Scene& scene, const Camera& camera, const Render
 
 Renderer::Renderer(gpu::Device& device, const Scene& scene, const Camera& camera,
                    const RenderSettings& settings, const KernelSource& kernels)
-    : settings_(settings),
+    : settings_(resolveKernels(settings, device.description().isCpu)),
       scene_(device, scene, environmentOf(scene, settings), settings.estimator.lightSelection),
       film_(device, settings.width, settings.height, settings.bandRows),
-      wavefront_(device, WavefrontKernels(device, settings.estimator, kernels), scene_, film_,
-                 frameFor(scene, camera, settings, scene_)) {}
+      waves_(makeWaveRenderer(device, settings_.kernels,
+                              {scene_, film_, frameFor(scene, camera, settings_, scene_), settings_.estimator, kernels})) {}
 
 StopReason Renderer::render(const KeepGoing& keepGoing) {
     const auto start = std::chrono::steady_clock::now();
@@ -116,7 +128,7 @@ bool Renderer::renderBand(size_t band, uint32_t firstSample, uint32_t sampleCoun
     const double total = static_cast<double>(settings_.samples) * film_.width() * film_.height();
     for (uint32_t done = 0; done < pixels;) {
         const uint32_t count = std::min(settings_.waveSize / sampleCount, pixels - done);
-        wavefront_.renderWave(band, {first + done, count, firstSample, sampleCount, first, 0});
+        waves_->renderWave(band, {first + done, count, firstSample, sampleCount, first, 0, 0, 0});
         done += count;
         pathsDone_ += uint64_t{count} * sampleCount;
         if (!keepGoing(static_cast<double>(pathsDone_) / total))

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 #include <functional>
-#include <map>
+#include <memory>
 #include <string>
 
 #include "gpu/commands.h"
@@ -12,7 +12,7 @@
 #include "render/film.h"
 #include "render/gpu_scene.h"
 #include "render/settings.h"
-#include "render/wavefront.h"
+#include "render/wave_renderer.h"
 #include "scene/scene.h"
 
 namespace lavalight {
@@ -21,8 +21,7 @@ enum class StopReason { samples, time, targetError, interrupted };
 
 class Renderer {
   public:
-    // Uploads the scene and builds the kernels. `settings.width` must be resolved (resolveSize) and the settings
-    // checked. The device must outlive the renderer. Throws Error where the device's limits are exceeded.
+    // Uploads the scene and builds the kernels. The settings must be checked, their width resolved (resolveSize). The device must outlive the renderer. Throws Error where the device's limits are exceeded.
     // The default kernels are those that the build embedded.
     Renderer(gpu::Device& device, const Scene& scene, const Camera& camera, const RenderSettings& settings,
              const KernelSource& kernels = embeddedKernel);
@@ -39,7 +38,9 @@ class Renderer {
     [[nodiscard]] const Film& film() const { return film_; }
     [[nodiscard]] Rendering rendering() const { return film_.resolve(); }
     [[nodiscard]] const GpuScene& scene() const { return scene_; }
-    [[nodiscard]] const Wavefront& wavefront() const { return wavefront_; }
+    [[nodiscard]] const WaveRenderer& waves() const { return *waves_; }
+    // With everything resolved that was left to the device.
+    [[nodiscard]] const RenderSettings& settings() const { return settings_; }
 
   private:
     [[nodiscard]] bool renderBand(size_t band, uint32_t firstSample, uint32_t sampleCount,
@@ -51,7 +52,7 @@ class Renderer {
     RenderSettings settings_;
     GpuScene scene_;
     Film film_;
-    Wavefront wavefront_;
+    std::unique_ptr<WaveRenderer> waves_;
     uint64_t pathsDone_ = 0;
     bool isOutOfTime_ = false;
 };
@@ -62,6 +63,9 @@ class Renderer {
 
 // Width from the camera's aspect ratio where the settings leave it open (16:9 where the camera does too).
 [[nodiscard]] RenderSettings resolveSize(RenderSettings settings, const Camera& camera);
+
+// Kernels and wave size where the settings leave them to the device.
+[[nodiscard]] RenderSettings resolveKernels(RenderSettings settings, bool isCpu);
 
 // Parameters for the kernels; the vertical field of view is kept whatever the image's aspect ratio.
 [[nodiscard]] FrameParameters makeFrame(const Scene& scene, const Camera& camera, const RenderSettings& settings);

@@ -18,6 +18,8 @@ constexpr std::array<SettingName<Roulette>, 5> kRoulettes{{{"throughput", Roulet
                                                            {"constant", Roulette::constant},
                                                            {"mean-albedo", Roulette::meanAlbedo},
                                                            {"max-albedo", Roulette::maxAlbedo}}};
+constexpr std::array<SettingName<Kernels>, 3> kKernels{
+    {{"auto", Kernels::automatic}, {"fused", Kernels::fused}, {"wavefront", Kernels::wavefront}}};
 constexpr std::array<SettingName<Fresnel>, 2> kFresnels{{{"exact", Fresnel::exact}, {"schlick", Fresnel::schlick}}};
 
 } // namespace
@@ -39,6 +41,10 @@ template <> std::span<const SettingName<Roulette>> settingNames() {
 }
 template <> std::span<const SettingName<Fresnel>> settingNames() {
     return kFresnels;
+}
+
+template <> std::span<const SettingName<Kernels>> settingNames() {
+    return kKernels;
 }
 
 } // namespace lavalight

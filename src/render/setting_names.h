@@ -23,6 +23,7 @@ template <> std::span<const SettingName<LightSelection>> settingNames();
 template <> std::span<const SettingName<Mis>> settingNames();
 template <> std::span<const SettingName<Roulette>> settingNames();
 template <> std::span<const SettingName<Fresnel>> settingNames();
+template <> std::span<const SettingName<Kernels>> settingNames();
 
 template <typename Value> [[nodiscard]] std::string_view nameOf(Value value) {
     const auto names = settingNames<Value>();

@@ -42,7 +42,8 @@ void checkSettings(const RenderSettings& settings) {
     requireRange("--size (width)", settings.width, 1, kMaxImageSide);
     requireRange("--size (height)", settings.height, 1, kMaxImageSide);
     requireRange("--spp", settings.samples, 1, 0x7fffffff);
-    requireRange("--wave-size", settings.waveSize, 64, 4000000);
+    if (settings.waveSize != 0)
+        requireRange("--wave-size", settings.waveSize, 64, 4000000);
     requireRange("--time", settings.seconds, 0, 1e9);
     requireRange("--target-error", settings.targetError, 0, 1e9);
     checkEstimator(settings.estimator);
@@ -52,6 +53,7 @@ std::vector<std::pair<std::string, std::string>> describe(const RenderSettings& 
     const EstimatorSettings& e = settings.estimator;
     std::vector<std::pair<std::string, std::string>> pairs;
     const auto add = [&](const char* option, auto value) { pairs.emplace_back(option, fmt::format("{}", value)); };
+    add("kernels", nameOf(settings.kernels));
     add("size", fmt::format("{}x{}", settings.width, settings.height));
     add("spp", settings.samples);
     add("first-sample", settings.firstSample);

@@ -29,6 +29,13 @@ enum class Roulette : uint32_t {
 };
 enum class Fresnel : uint32_t { exact = kFresnelExact, schlick = kFresnelSchlick };
 
+// How kernels cut up the work of a path. Their code is the same; bits may differ where a driver rounds otherwise.
+enum class Kernels {
+    automatic, // by the kind of device
+    fused,     // one kernel for whole paths
+    wavefront  // a kernel for each step of a bounce
+};
+
 // What the estimator does. Two renders of one scene with equal EstimatorSettings have equal bits.
 struct EstimatorSettings {
     Sampler sampler = Sampler::sobol;
@@ -55,7 +62,8 @@ struct RenderSettings {
     uint32_t firstSample = 0;  // samples [firstSample, firstSample + samples)
     double seconds = 0.0;      // stop after this time; 0: no limit
     double targetError = 0.0;  // stop when the estimated relMSE is below this; 0: no target
-    uint32_t waveSize = 65536; // path slots of a wave
+    Kernels kernels = Kernels::automatic;
+    uint32_t waveSize = 0; // path slots of a wave; 0: by the kernels
     uint32_t bandRows = 0;     // rows of a film band; 0: as many as a storage buffer of the device holds
     std::optional<glm::vec3> environment; // constant radiance that replaces the scene's
 };

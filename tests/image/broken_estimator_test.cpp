@@ -19,21 +19,21 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The kernel shade from a copy of its source in which `from`, found exactly once, reads `to`.
-gpu::KernelCode brokenShade(const std::string& from, const std::string& to) {
+// A kernel from a copy of the sources in which `from`, found exactly once in scene/path_vertex.glsl, reads `to`.
+gpu::KernelCode brokenKernel(std::string_view name, const std::string& from, const std::string& to) {
     const TemporaryFolder folder;
     fs::copy(fs::path(LAVALIGHT_SOURCE_DIR) / "shaders", folder.path(),
              fs::copy_options::recursive | fs::copy_options::overwrite_existing);
-    const fs::path file = folder.path() / "kernels/shade.comp";
+    const fs::path file = folder.path() / "scene/path_vertex.glsl";
     std::stringstream buffer;
     buffer << std::ifstream(file).rdbuf();
     std::string source = buffer.str();
     const size_t at = source.find(from);
     if (at == std::string::npos || source.find(from, at + 1) != std::string::npos)
-        throw std::runtime_error("shade.comp does not hold exactly one \"" + from + "\"");
+        throw std::runtime_error("path_vertex.glsl does not hold exactly one \"" + from + "\"");
     source.replace(at, from.size(), to);
     std::ofstream(file) << source;
-    return gpu::compileKernel(file, folder.path());
+    return gpu::compileKernel(folder.path() / "kernels" / (std::string(name) + ".comp"), folder.path());
 }
 
 class BrokenEstimatorTest : public DeviceTest {
@@ -42,11 +42,10 @@ class BrokenEstimatorTest : public DeviceTest {
                       uint32_t samples = 1024) {
         const Scene scene = loadScene(sceneName);
         RenderSettings settings = imageSettings(32, 32, samples);
-        settings.waveSize = 262144; // as the estimators' test
         const RenderResult sound = renderScene(device(), scene, settings);
         settings.estimator.seed = 1;
         const RenderResult broken = renderScene(device(), scene, settings, [&](std::string_view name) {
-            return name == "shade" ? brokenShade(from, to) : embeddedKernel(name);
+            return name == "accumulate" ? embeddedKernel(name) : brokenKernel(name, from, to);
         });
         const MeanComparison comparison = compareMeans(broken.rendering, sound.rendering);
         std::cout << sceneName << ": " << comparison.text() << "\n";

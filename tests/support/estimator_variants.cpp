@@ -16,8 +16,6 @@ using Change = std::function<void(EstimatorSettings&)>;
 
 constexpr uint32_t kSide = 32;
 constexpr uint32_t kMaxBounces = 5; // of all that is compared: without roulette, paths would run on to 64
-constexpr uint32_t kWaveSize =
-    262144; // fewer, larger waves: 1.2 times as fast as the default for small images
 
 // One value of one setting; an empty option is the default.
 struct Choice {
@@ -77,7 +75,6 @@ Rendering render(gpu::Device& device, const Scene& scene, const EstimatorSetting
     RenderSettings settings = imageSettings(kSide, kSide, samples);
     settings.estimator = estimator;
     settings.estimator.maxBounces = kMaxBounces;
-    settings.waveSize = kWaveSize;
     const RenderResult result = renderScene(device, scene, settings);
     EXPECT_EQ(result.tallies.droppedSamples, 0u);
     return result.rendering;

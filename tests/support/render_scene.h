@@ -12,7 +12,7 @@
 #include "image/statistics.h"
 #include "render/film.h"
 #include "render/settings.h"
-#include "render/wavefront.h"
+#include "render/estimator_kernels.h"
 #include "scene/scene.h"
 
 namespace lavalight::test {

@@ -1,0 +1,52 @@
+#version 460
+// The wavefront's kernels fused: each invocation is a lane that takes its slots' paths from the camera to their ends, one
+// after another, so that the lanes of a subgroup are busy although their paths differ in length.
+#include "scene/path_rays.glsl"
+#include "scene/path_vertex.glsl"
+#include "shared/bindings.h"
+
+layout(local_size_x = 64) in;
+layout(set = 0, binding = BINDING_PATHS, std430) buffer Paths { Path paths[]; };
+layout(set = 0, binding = BINDING_LANES, std430) buffer Lanes { Lane lanes[]; };
+layout(set = 0, binding = BINDING_LANE_COUNTERS, std430) buffer LaneCounts { LaneCounters counters; };
+
+void main() {
+    const uint index = gl_GlobalInvocationID.x;
+    const uint end = min((index + 1u) * range.slotsPerLane, slotCount());
+    Lane lane;
+    lane.slot = range.isFirst != 0u ? index * range.slotsPerLane : lanes[index].slot;
+    if (lane.slot >= end)
+        return;
+    lane.bounce = range.isFirst != 0u ? 0u : lanes[index].bounce;
+    lane.ray = lanes[index].ray;
+    Path path = paths[lane.slot];
+    uint indirectRays = 0u;
+    uint shadowRays = 0u;
+    for (uint i = 0u; i < kVerticesPerDispatch && lane.slot < end; ++i) {
+        if (lane.bounce == 0u) {
+            lane.ray = cameraRayOf(lane.slot);
+            path = kNewPath;
+        }
+        const Hit hit = trace(lane.ray, lane.bounce);
+        const NextRays next = scatter(hit, lane.ray, lane.slot, lane.bounce, path);
+        shadowRays += next.wantsShadowRay ? 1u : 0u;
+        if (next.wantsShadowRay && !isOccluded(next.shadow))
+            path.radiance += next.shadow.contribution;
+        lane.ray = next.ray;
+        if (next.goesOn) {
+            ++indirectRays;
+            ++lane.bounce;
+        } else {
+            paths[lane.slot] = path;
+            ++lane.slot;
+            lane.bounce = 0u;
+        }
+    }
+    if (lane.bounce > 0u)
+        paths[lane.slot] = path;
+    lanes[index] = lane;
+    atomicAdd(counters.indirectRays, indirectRays);
+    atomicAdd(counters.shadowRays, shadowRays);
+    if (lane.slot < end)
+        atomicAdd(counters.unfinished, 1u);
+}

@@ -1,0 +1,26 @@
+// The rays of a path: from the camera, between vertices, and to lights.
+#include "lib/camera.glsl"
+#include "scene/frame.glsl"
+#include "scene/traverse.glsl"
+
+const Path kNewPath = Path(vec3(1.0), 0.0, vec3(0.0), 1.0);
+
+// Through a random point of the slot's pixel.
+Ray cameraRayOf(uint slot) {
+    const uint pixel = pixelOfSlot(slot);
+    const vec2 corner = vec2(pixel % frame.imageWidth, pixel / frame.imageWidth);
+    return cameraRay(frame, corner + sample2D(keyOfSlot(slot, 0u), kDimensionPixel));
+}
+
+// The closest hit; t is infinite where there is none. glTF's back-face culling is for the camera alone: light transport
+// needs closed surfaces.
+Hit trace(Ray ray, uint bounce) {
+    Hit hit;
+    if (!intersectClosest(ray.origin, ray.direction, kInfinity, RayFilter(bounce == 0u, ray.fromTriangle, kNoTriangle), hit))
+        hit.t = kInfinity;
+    return hit;
+}
+
+bool isOccluded(ShadowRay ray) {
+    return intersectAny(ray.origin, ray.direction, 1.0, RayFilter(false, ray.fromTriangle, ray.toTriangle));
+}

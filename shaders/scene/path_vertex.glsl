@@ -1,0 +1,149 @@
+// One vertex of a path: what it emits, what lights send it directly, and where the path goes on.
+// Based on: Kajiya, "The Rendering Equation", 1986.
+#include "lib/mis.glsl"
+#include "lib/onb.glsl"
+#include "lib/roulette.glsl"
+#include "scene/frame.glsl"
+#include "scene/interaction.glsl"
+#include "scene/light.glsl"
+#include "scene/material.glsl"
+#include "scene/tally.glsl"
+
+// A vertex of the path with all that its parts ask for.
+struct Vertex {
+    Interaction surface;
+    Surface bsdf;
+    Basis basis;
+    vec3 wo;        // local
+    float survival; // probability by albedo, known before a direction is drawn
+    SampleKey key;
+};
+
+// What comes from beyond the first vertex, limited if --clamp-indirect asks for it; `scatterings` before it is seen.
+vec3 clamped(vec3 radiance, uint scatterings) {
+    const float largest = max(radiance.x, max(radiance.y, radiance.z));
+    return scatterings > 1u && largest > frame.clampIndirect ? radiance * (frame.clampIndirect / largest) : radiance;
+}
+
+// How much of a light that this path's BSDF ray found counts, next to what NEE found at the previous vertex, which finds
+// that direction with density lightPdf.
+float foundLightWeight(float bsdfPdf, float lightPdf) {
+    if (bsdfPdf == 0.0 || kNee == 0u || lightPdf == 0.0)
+        return 1.0;
+    return kMis == kMisOff ? 0.0 : misWeight(kMis, bsdfPdf, lightPdf);
+}
+
+float hitLightPdf(Interaction surface, Hit hit, Ray ray) {
+    if (!sceneHas(kFeatureTriangleLights) || surface.emitter == kNoEmitter || kNee == 0u)
+        return 0.0;
+    return lightPmf(surface.emitter) * triangleLightPdf(loadLeafTriangle(hit.leafTriangle), ray.origin, surface.area,
+                                                        hit.t * hit.t, dot(surface.ng, ray.direction));
+}
+
+float missLightPdf(Ray ray) {
+    if (!sceneHas(kFeatureEnvironment) || frame.environmentLight == kNoLight || kNee == 0u)
+        return 0.0;
+    return lightPmf(frame.environmentLight) * environmentPdf(ray.originCosine);
+}
+
+// n and ng must agree about the side of wi.
+bool isSameSide(Vertex v, vec3 wi, float localZ) {
+    return (dot(wi, v.surface.ng) > 0.0) == (localZ > 0.0);
+}
+
+// Picks a light and prepares its shadow ray; false: nothing to be had.
+bool nextEvent(Vertex v, vec3 throughput, out ShadowRay shadow) {
+    const LightSample light = sampleLight(frame, Receiver(v.surface.p, v.surface.n), sampleBits1D(v.key, kDimensionLightPick),
+                                          sample2D(v.key, kDimensionLightPoint));
+    const vec3 wi = toLocal(v.basis, light.wi);
+    if (!isSameSide(v, light.wi, wi.z))
+        return false;
+    const float bsdfPdf = pdfBsdf(v.bsdf, v.wo, wi) * (kMisSurvival != 0u ? v.survival : 1.0);
+    const float weight = light.isDelta ? 1.0 : misWeight(kMis, light.pdf, bsdfPdf);
+    const vec3 arriving = evalBsdf(v.bsdf, v.wo, wi) * light.radiance * (weight / light.pdf);
+    shadow.contribution = clamped(throughput * arriving, v.key.vertex);
+    shadow.origin = offsetOrigin(v.surface.p, v.surface.pError, v.surface.ng, light.wi);
+    shadow.direction = light.end - shadow.origin;
+    shadow.fromTriangle = v.surface.triangle;
+    shadow.toTriangle = light.triangle;
+    return light.pdf > 0.0 && shadow.contribution != vec3(0.0);
+}
+
+// Draws the next ray; false: absorbed.
+bool nextRay(Vertex v, inout Path path, out Ray ray) {
+    const BsdfSample next =
+        sampleBsdf(v.bsdf, v.wo, sample2D(v.key, kDimensionBsdf), sample1D(v.key, kDimensionLobe));
+    const vec3 wi = toWorld(v.basis, next.wi);
+    ray = Ray(offsetOrigin(v.surface.p, v.surface.pError, v.surface.ng, wi), v.surface.triangle, wi, next.wi.z);
+    path.throughput *= next.weight;
+    path.bsdfPdf = next.pdf * (kMisSurvival != 0u ? v.survival : 1.0);
+    path.etaScale *= next.eta * next.eta;
+    return path.throughput != vec3(0.0) && isSameSide(v, wi, next.wi.z);
+}
+
+// Kills the path or makes up for those that died; indirect light only: what NEE found stays.
+bool survives(Vertex v, inout Path path) {
+    if (v.key.vertex < frame.rouletteStart)
+        return true;
+    const float survival = min(v.survival, survivalByThroughput(kRoulette, path.throughput * path.etaScale));
+    if (survival >= 1.0)
+        return true;
+    if (sample1D(v.key, kDimensionRoulette) >= survival)
+        return false;
+    path.throughput /= survival;
+    return true;
+}
+
+Vertex makeVertex(Interaction surface, MaterialRecord material, vec3 wo, SampleKey key) {
+    Vertex v;
+    v.surface = surface;
+    v.bsdf = surfaceOf(material, surface.isFront);
+    v.basis = makeBasis(surface.n);
+    v.wo = toLocal(v.basis, wo);
+    v.key = key;
+    v.survival = key.vertex < frame.rouletteStart
+                     ? 1.0
+                     : survivalByAlbedo(kRoulette, frame.rouletteProbability, directionalAlbedo(v.bsdf, v.wo));
+    return v;
+}
+
+// What there is to trace after a vertex.
+struct NextRays {
+    bool goesOn;
+    Ray ray;
+    bool wantsShadowRay;
+    ShadowRay shadow;
+};
+
+// The vertex where `ray` met the scene, after `bounce` others: the path collects what is emitted there, and is scattered.
+NextRays scatter(Hit hit, Ray ray, uint slot, uint bounce, inout Path path) {
+    NextRays next;
+    next.goesOn = false;
+    next.wantsShadowRay = false;
+    if (hit.t == kInfinity) {
+        const vec3 found = path.throughput * frame.environment * foundLightWeight(path.bsdfPdf, missLightPdf(ray));
+        path.radiance += clamped(found, bounce);
+        return next;
+    }
+    const Interaction surface = makeInteraction(hit, -ray.direction);
+    const MaterialRecord material = fetchMaterial(surface.material);
+
+    // ---- Emission ----
+    const vec3 emission = emissionOf(material, surface.isFront);
+    if (emission != vec3(0.0))
+        path.radiance += clamped(
+            path.throughput * emission * foundLightWeight(path.bsdfPdf, hitLightPdf(surface, hit, ray)), bounce);
+    if (bounce >= frame.maxBounces) {
+        tallyCutPath(path.throughput);
+        return next;
+    }
+    const Vertex vertex = makeVertex(surface, material, -ray.direction, keyOfSlot(slot, bounce + 1u));
+
+    // ---- Next-event estimation ----
+    if (kNee != 0u && frame.lightCount > 0u && hasNonDelta(vertex.bsdf))
+        next.wantsShadowRay = nextEvent(vertex, path.throughput, next.shadow);
+
+    // ---- BSDF sampling and roulette ----
+    next.goesOn = nextRay(vertex, path, next.ray) && survives(vertex, path);
+    return next;
+}

@@ -1,0 +1,75 @@
+#include "render/fused_paths.h"
+
+#include <algorithm>
+
+namespace lavalight {
+namespace {
+
+// The more slots a lane takes, the less the lengths of its paths matter: of eight lanes with 1, 16, 64 slots the longest
+// takes XXX times the mean. Fewer lanes than this leave processors idle.
+constexpr uint32_t kMostSlotsPerLane = 64;
+constexpr uint32_t kFewestLanes = 4096;
+
+uint32_t slotsPerLane(uint32_t slots) {
+    return std::clamp(slots / kFewestLanes, 1u, kMostSlotsPerLane);
+}
+
+// Of a wave of any size up to `slots`.
+uint32_t mostLanes(uint32_t slots) {
+    return std::max(std::min(slots, 2 * kFewestLanes), slots / kMostSlotsPerLane + 1);
+}
+
+} // namespace
+
+FusedPaths::State::State(gpu::Device& device, uint32_t slots)
+    : paths(device, "paths", slots * sizeof(Path), gpu::BufferUse::storage),
+      lanes(device, "lanes", mostLanes(slots) * sizeof(Lane), gpu::BufferUse::storage),
+      counters(device, "lane counters", sizeof(LaneCounters), gpu::BufferUse::readback) {}
+
+gpu::ResourceTable FusedPaths::State::table() const {
+    gpu::ResourceTable resources;
+    resources.set("Paths", paths);
+    resources.set("Lanes", lanes);
+    resources.set("LaneCounts", counters);
+    return resources;
+}
+
+FusedPaths::Band::Band(gpu::Device& device, const FusedPaths& kernels, const WaveInputs& inputs, const FilmBand& film)
+    : resources(device, inputs, film, kernels.state_.table()),
+      path(device, kernels.path_, resources.table), accumulate(device, kernels.accumulate_, resources.table) {}
+
+FusedPaths::FusedPaths(gpu::Device& device, const WaveInputs& inputs)
+    : WaveRenderer(device),
+      path_(device, inputs.kernels("path"), estimatorConstants(inputs.estimator, inputs.scene.features())),
+      accumulate_(device, inputs.kernels("accumulate")), state_(device, inputs.frame.waveSize) {
+    bands_.reserve(inputs.film.bands().size());
+    for (const FilmBand& band : inputs.film.bands())
+        bands_.emplace_back(device, *this, inputs, band);
+}
+
+void FusedPaths::renderWave(size_t bandIndex, WaveRange range) {
+    const Band& band = bands_[bandIndex];
+    const uint32_t slots = range.pixelCount * range.sampleCount;
+    range.slotsPerLane = slotsPerLane(slots);
+    range.isFirst = 1;
+    const uint32_t lanes = (slots + range.slotsPerLane - 1) / range.slotsPerLane;
+    while (advance(band, range, lanes) > 0)
+        range.isFirst = 0;
+    commands_.begin();
+    commands_.dispatch(band.accumulate, groupsFor(range.pixelCount), pushed(range));
+    commands_.submitAndWait();
+    rays_.camera += slots;
+}
+
+uint32_t FusedPaths::advance(const Band& band, const WaveRange& range, uint32_t lanes) {
+    commands_.begin();
+    commands_.fill(state_.counters, 0);
+    commands_.dispatch(band.path, groupsFor(lanes), pushed(range));
+    commands_.submitAndWait();
+    const LaneCounters counters = state_.counters.downloadAll<LaneCounters>().front();
+    rays_.indirect += counters.indirectRays;
+    rays_.shadow += counters.shadowRays;
+    return counters.unfinished;
+}
+
+} // namespace lavalight

@@ -1,0 +1,45 @@
+#include "render/wave_renderer.h"
+
+#include <cassert>
+#include <utility>
+
+#include "render/fused_paths.h"
+#include "render/wavefront.h"
+
+namespace lavalight {
+namespace {
+
+gpu::Buffer uploadFrame(gpu::Device& device, FrameParameters parameters, const FilmBand& band) {
+    parameters.bandPixels = band.rows * parameters.imageWidth;
+    gpu::Buffer buffer(device, "frame parameters", sizeof(FrameParameters), gpu::BufferUse::storage);
+    buffer.upload(std::span<const FrameParameters>(&parameters, 1));
+    return buffer;
+}
+
+} // namespace
+
+std::unique_ptr<WaveRenderer> makeWaveRenderer(gpu::Device& device, Kernels kernels, const WaveInputs& inputs) {
+    assert(kernels != Kernels::automatic);
+    if (kernels == Kernels::fused)
+        return std::make_unique<FusedPaths>(device, inputs);
+    return std::make_unique<Wavefront>(device, inputs);
+}
+
+BandResources::BandResources(gpu::Device& device, const WaveInputs& inputs, const FilmBand& band,
+                             gpu::ResourceTable state)
+    : frame(uploadFrame(device, inputs.frame, band)), table(std::move(state)) {
+    inputs.scene.addTo(table);
+    table.set("Tallies", inputs.film.tallies());
+    table.set("Frame", frame);
+    table.set("Film", band.sums);
+}
+
+uint32_t groupsFor(uint32_t invocations) {
+    return (invocations + kWorkgroupSize - 1) / kWorkgroupSize;
+}
+
+std::span<const std::byte> pushed(const WaveRange& range) {
+    return std::as_bytes(std::span(&range, 1));
+}
+
+} // namespace lavalight

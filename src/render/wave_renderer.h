@@ -1,0 +1,72 @@
+// What renders waves of paths: the interface of the two ways there are, render/wavefront.h and render/fused_paths.h.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "gpu/buffer.h"
+#include "gpu/commands.h"
+#include "gpu/kernel.h"
+#include "render/estimator_kernels.h"
+#include "render/film.h"
+#include "render/gpu_scene.h"
+#include "render/settings.h"
+#include "shared/frame.h"
+#include "shared/wavefront.h"
+
+namespace lavalight {
+
+// Rays traced so far.
+struct RayCounts {
+    uint64_t camera = 0;
+    uint64_t indirect = 0;
+    uint64_t shadow = 0;
+    [[nodiscard]] uint64_t total() const { return camera + indirect + shadow; }
+};
+
+class WaveRenderer {
+  public:
+    virtual ~WaveRenderer() = default;
+    WaveRenderer(const WaveRenderer&) = delete; // bound kernels refer to members
+    WaveRenderer& operator=(const WaveRenderer&) = delete;
+
+    // Takes range.sampleCount samples for each of range.pixelCount pixels of band `band` and adds them to the film.
+    // pixelCount * sampleCount must not exceed the wave size.
+    virtual void renderWave(size_t band, WaveRange range) = 0;
+
+    [[nodiscard]] const RayCounts& rays() const { return rays_; }
+    [[nodiscard]] const gpu::KernelTimes& kernelTimes() const { return commands_.times(); }
+
+  protected:
+    explicit WaveRenderer(gpu::Device& device) : commands_(device) {}
+
+    gpu::Commands commands_;
+    RayCounts rays_;
+};
+
+// What decides how waves are rendered, beside the kernels. The scene and the film must outlive the renderer; `frame` says
+// what scene, camera and settings decide (the size of a band is filled in).
+struct WaveInputs {
+    const GpuScene& scene;
+    const Film& film;
+    const FrameParameters& frame;
+    const EstimatorSettings& estimator;
+    const KernelSource& kernels;
+};
+
+// Settings::kernels must not be automatic. The device must outlive the renderer.
+[[nodiscard]] std::unique_ptr<WaveRenderer> makeWaveRenderer(gpu::Device& device, Kernels kernels, const WaveInputs& inputs);
+
+// A band of the film with its frame parameters, added to `state`, the buffers that all bands share.
+struct BandResources {
+    BandResources(gpu::Device& device, const WaveInputs& inputs, const FilmBand& band, gpu::ResourceTable state);
+    gpu::Buffer frame;
+    gpu::ResourceTable table;
+};
+
+[[nodiscard]] uint32_t groupsFor(uint32_t invocations);
+[[nodiscard]] std::span<const std::byte> pushed(const WaveRange& range);
+
+} // namespace lavalight
