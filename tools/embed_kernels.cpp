@@ -47,12 +47,23 @@ std::string arrayOf(const gpu::KernelCode& code) {
     return text + "\n};\n";
 }
 
+std::string_view nameOf(gpu::BindingKind kind) {
+    switch (kind) {
+    case gpu::BindingKind::storageBuffer:
+        return "storageBuffer";
+    case gpu::BindingKind::uniformBuffer:
+        return "uniformBuffer";
+    case gpu::BindingKind::uniformTexelBuffer:
+        return "uniformTexelBuffer";
+    }
+    return "";
+}
+
 std::string branchOf(const gpu::KernelCode& code) {
     std::string bindings;
     for (const gpu::KernelBinding& binding : code.bindings)
         bindings += fmt::format("{{\"{}\", {}, gpu::BindingKind::{}}}, ", binding.name, binding.binding,
-                                binding.kind == gpu::BindingKind::storageBuffer ? "storageBuffer"
-                                                                                : "uniformTexelBuffer");
+                                nameOf(binding.kind));
     return fmt::format("    if (name == \"{0}\")\n"
                        "        return {{\"{0}\", {{std::begin({0}), std::end({0})}}, {{{1}}}, {2}}};\n",
                        code.name, bindings, code.pushConstantBytes);

@@ -13,40 +13,34 @@ bool isFinite(vec3 v) {
     return !any(isnan(v)) && !any(isinf(v));
 }
 
-// One channel of one pixel: its words stay in registers while the wave's samples are added.
-void accumulateChannel(uint channel, uint pixel, uint firstSlot) {
-    const uint n = frame.bandPixels;
-    const uint at = channel * kChannelWords * n + pixel;
-    uvec3 sum = uvec3(film[at], film[at + n], film[at + 2u * n]);
-    uvec4 square = uvec4(film[at + 3u * n], film[at + 4u * n], film[at + 5u * n], film[at + 6u * n]);
-    uint saturated = 0u;
-    for (uint slot = firstSlot; slot < firstSlot + range.sampleCount; ++slot) {
-        const vec3 radiance = paths[slot].radiance;
-        if (!isFinite(radiance))
-            continue;
-        const float value = max(radiance[channel], 0.0);
-        saturated += addExactly(sum, value, kSumLowestExponent) ? 0u : 1u;
-        saturated += addExactly(square, value * value, kSquareLowestExponent) ? 0u : 1u;
-    }
-    if (saturated > 0u)
-        addTally(kTallySaturated, saturated);
-    film[at] = sum.x;
-    film[at + n] = sum.y;
-    film[at + 2u * n] = sum.z;
-    film[at + 3u * n] = square.x;
-    film[at + 4u * n] = square.y;
-    film[at + 5u * n] = square.z;
-    film[at + 6u * n] = square.w;
+// The sums of one channel of one pixel: in registers while the wave's samples are added.
+struct ChannelSums {
+    uvec3 sum;
+    uvec4 square;
+};
+
+uint wordAt(uint channel, uint word, uint pixel) {
+    return (channel * kChannelWords + word) * frame.bandPixels + pixel;
 }
 
-// The sample count, and what the ledger wants to know.
-void accumulateCounts(uint pixel, uint firstSlot) {
-    uint dropped = 0u;
-    for (uint slot = firstSlot; slot < firstSlot + range.sampleCount; ++slot)
-        dropped += isFinite(paths[slot].radiance) ? 0u : 1u;
-    if (dropped > 0u)
-        addTally(kTallyDropped, dropped);
-    film[kCountPlane * frame.bandPixels + pixel] += range.sampleCount - dropped;
+ChannelSums loadSums(uint channel, uint pixel) {
+    return ChannelSums(uvec3(film[wordAt(channel, 0u, pixel)], film[wordAt(channel, 1u, pixel)], film[wordAt(channel, 2u, pixel)]),
+                       uvec4(film[wordAt(channel, 3u, pixel)], film[wordAt(channel, 4u, pixel)], film[wordAt(channel, 5u, pixel)],
+                             film[wordAt(channel, 6u, pixel)]));
+}
+
+void storeSums(uint channel, uint pixel, ChannelSums sums) {
+    for (uint word = 0u; word < 3u; ++word)
+        film[wordAt(channel, word, pixel)] = sums.sum[word];
+    for (uint word = 0u; word < 4u; ++word)
+        film[wordAt(channel, 3u + word, pixel)] = sums.square[word];
+}
+
+// Adds a radiance; the number of sums that it takes out of range.
+uint addRadiance(inout ChannelSums sums, float radiance) {
+    const float value = max(radiance, 0.0);
+    return (addExactly(sums.sum, value, kSumLowestExponent) ? 0u : 1u) +
+           (addExactly(sums.square, value * value, kSquareLowestExponent) ? 0u : 1u);
 }
 
 void main() {
@@ -55,7 +49,24 @@ void main() {
         return;
     const uint pixel = range.firstPixel - range.bandFirstPixel + index;
     const uint firstSlot = index * range.sampleCount;
-    for (uint channel = 0u; channel < 3u; ++channel)
-        accumulateChannel(channel, pixel, firstSlot);
-    accumulateCounts(pixel, firstSlot);
+    ChannelSums red = loadSums(0u, pixel);
+    ChannelSums green = loadSums(1u, pixel);
+    ChannelSums blue = loadSums(2u, pixel);
+    uint dropped = 0u;
+    uint saturated = 0u;
+    for (uint slot = firstSlot; slot < firstSlot + range.sampleCount; ++slot) {
+        const vec3 radiance = paths[slot].radiance;
+        if (isFinite(radiance))
+            saturated += addRadiance(red, radiance.x) + addRadiance(green, radiance.y) + addRadiance(blue, radiance.z);
+        else
+            ++dropped;
+    }
+    storeSums(0u, pixel, red);
+    storeSums(1u, pixel, green);
+    storeSums(2u, pixel, blue);
+    film[kCountPlane * frame.bandPixels + pixel] += range.sampleCount - dropped;
+    if (saturated > 0u)
+        addTally(kTallySaturated, saturated);
+    if (dropped > 0u)
+        addTally(kTallyDropped, dropped);
 }

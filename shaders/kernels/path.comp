@@ -3,6 +3,7 @@
 // after another, so that the lanes of a subgroup are busy although their paths differ in length.
 #include "scene/path_rays.glsl"
 #include "scene/path_vertex.glsl"
+#include "scene/tally.glsl"
 #include "shared/bindings.h"
 
 layout(local_size_x = 64) in;
@@ -22,6 +23,8 @@ void main() {
     Path path = paths[lane.slot];
     uint indirectRays = 0u;
     uint shadowRays = 0u;
+    uint cutPaths = 0u;
+    uint cutThroughput = 0u;
     for (uint i = 0u; i < kVerticesPerDispatch && lane.slot < end; ++i) {
         if (lane.bounce == 0u) {
             lane.ray = cameraRayOf(lane.slot);
@@ -32,6 +35,8 @@ void main() {
         shadowRays += next.wantsShadowRay ? 1u : 0u;
         if (next.wantsShadowRay && !isOccluded(next.shadow))
             path.radiance += next.shadow.contribution;
+        cutPaths += next.isCut ? 1u : 0u;
+        cutThroughput += next.isCut ? fixedThroughput(path.throughput) : 0u;
         lane.ray = next.ray;
         if (next.goesOn) {
             ++indirectRays;
@@ -47,6 +52,7 @@ void main() {
     lanes[index] = lane;
     atomicAdd(counters.indirectRays, indirectRays);
     atomicAdd(counters.shadowRays, shadowRays);
+    tallyCutPaths(cutPaths, cutThroughput);
     if (lane.slot < end)
         atomicAdd(counters.unfinished, 1u);
 }

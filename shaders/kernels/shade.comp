@@ -2,6 +2,7 @@
 // One vertex of each path: what it emits, what lights send it directly, and where the path goes on.
 // Based on: Laine, Karras, Aila, "Megakernels Considered Harmful", HPG 2013.
 #include "scene/path_vertex.glsl"
+#include "scene/tally.glsl"
 #include "scene/wave.glsl"
 
 layout(local_size_x = 64) in;
@@ -15,6 +16,8 @@ void main() {
     Path path = paths[slot];
     const NextRays next = scatter(hits[slot], rays[slot], slot, bounce, path);
     paths[slot] = path;
+    if (next.isCut)
+        tallyCutPaths(1u, fixedThroughput(path.throughput));
     if (next.wantsShadowRay)
         shadowRays[slot] = next.shadow;
     if (next.goesOn)

@@ -4,7 +4,8 @@
 #include "shared/frame.h"
 #include "shared/wavefront.h"
 
-layout(set = 0, binding = BINDING_FRAME, std430) readonly buffer Frame { FrameParameters frame; };
+// A uniform buffer: within a loop, lavapipe reads storage buffers lane by lane, which took 15 % of the fused kernel's time.
+layout(set = 0, binding = BINDING_FRAME, std140) uniform Frame { FrameParameters frame; };
 layout(push_constant) uniform Push { WaveRange range; };
 
 uint slotCount() {

@@ -7,7 +7,6 @@
 #include "scene/interaction.glsl"
 #include "scene/light.glsl"
 #include "scene/material.glsl"
-#include "scene/tally.glsl"
 
 // A vertex of the path with all that its parts ask for.
 struct Vertex {
@@ -110,6 +109,7 @@ Vertex makeVertex(Interaction surface, MaterialRecord material, vec3 wo, SampleK
 // What there is to trace after a vertex.
 struct NextRays {
     bool goesOn;
+    bool isCut; // by --max-bounces
     Ray ray;
     bool wantsShadowRay;
     ShadowRay shadow;
@@ -119,6 +119,7 @@ struct NextRays {
 NextRays scatter(Hit hit, Ray ray, uint slot, uint bounce, inout Path path) {
     NextRays next;
     next.goesOn = false;
+    next.isCut = false;
     next.wantsShadowRay = false;
     if (hit.t == kInfinity) {
         const vec3 found = path.throughput * frame.environment * foundLightWeight(path.bsdfPdf, missLightPdf(ray));
@@ -133,10 +134,9 @@ NextRays scatter(Hit hit, Ray ray, uint slot, uint bounce, inout Path path) {
     if (emission != vec3(0.0))
         path.radiance += clamped(
             path.throughput * emission * foundLightWeight(path.bsdfPdf, hitLightPdf(surface, hit, ray)), bounce);
-    if (bounce >= frame.maxBounces) {
-        tallyCutPath(path.throughput);
+    next.isCut = bounce >= frame.maxBounces;
+    if (next.isCut)
         return next;
-    }
     const Vertex vertex = makeVertex(surface, material, -ray.direction, keyOfSlot(slot, bounce + 1u));
 
     // ---- Next-event estimation ----

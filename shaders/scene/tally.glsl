@@ -11,8 +11,15 @@ void addTally(uint which, uint amount) {
         atomicAdd(tallies[2u * which + 1u], 1u);
 }
 
-// A path that --max-bounces ends although it could go on.
-void tallyCutPath(vec3 throughput) {
-    addTally(kTallyCutPaths, 1u);
-    addTally(kTallyCutThroughput, uint(min(dot(throughput, vec3(1.0 / 3.0)), 65535.0) * 65536.0 + 0.5));
+// The mean of a path's throughput in units of 2^-16, at most 2^28: a lane's sum over the vertices of a dispatch fits a word.
+uint fixedThroughput(vec3 throughput) {
+    return uint(min(dot(throughput, vec3(1.0 / 3.0)), 4096.0) * 65536.0 + 0.5);
+}
+
+// Paths that --max-bounces ended although they could go on, and the sum of what they carried.
+void tallyCutPaths(uint paths, uint throughput) {
+    if (paths > 0u) {
+        addTally(kTallyCutPaths, paths);
+        addTally(kTallyCutThroughput, throughput);
+    }
 }

@@ -14,6 +14,7 @@ namespace lavalight::gpu {
 namespace {
 
 constexpr uint64_t kTexelBytes = 16;
+[[maybe_unused]] constexpr uint64_t kMostUniformBytes = 16384; // what every Vulkan device allows
 constexpr vk::Format kTexelFormat = vk::Format::eR32G32B32A32Uint;
 
 vk::BufferUsageFlags usageFlags(BufferUse use) {
@@ -21,6 +22,8 @@ vk::BufferUsageFlags usageFlags(BufferUse use) {
     const vk::BufferUsageFlags copies = Usage::eTransferSrc | Usage::eTransferDst;
     if (use == BufferUse::texels)
         return copies | Usage::eUniformTexelBuffer;
+    if (use == BufferUse::uniform)
+        return copies | Usage::eUniformBuffer;
     return copies | Usage::eStorageBuffer | Usage::eIndirectBuffer;
 }
 
@@ -47,6 +50,7 @@ void checkLimits(const Device& device, const std::string& name, uint64_t bytes, 
 
 Buffer::Buffer(Device& device, std::string name, uint64_t bytes, BufferUse use)
     : device_(&device), name_(std::move(name)), bytes_(bytes), use_(use) {
+    assert(use != BufferUse::uniform || bytes <= kMostUniformBytes);
     checkLimits(device, name_, bytes, use);
     allocate();
 }

@@ -17,6 +17,7 @@ namespace lavalight::gpu {
 enum class BufferUse {
     storage,  // read and written by kernels; stays in the device's memory
     readback, // as storage, but mapped, for the few words that the host reads after each submission
+    uniform,  // a few words that every invocation reads alike, at most 16 KiB
     texels,   // read by kernels as RGBA32UI texels (16 bytes an element) through a uniform texel view
 };
 

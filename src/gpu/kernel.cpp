@@ -11,8 +11,15 @@ namespace lavalight::gpu {
 namespace {
 
 vk::DescriptorType descriptorType(BindingKind kind) {
-    return kind == BindingKind::storageBuffer ? vk::DescriptorType::eStorageBuffer
-                                              : vk::DescriptorType::eUniformTexelBuffer;
+    switch (kind) {
+    case BindingKind::storageBuffer:
+        return vk::DescriptorType::eStorageBuffer;
+    case BindingKind::uniformBuffer:
+        return vk::DescriptorType::eUniformBuffer;
+    case BindingKind::uniformTexelBuffer:
+        return vk::DescriptorType::eUniformTexelBuffer;
+    }
+    throw std::logic_error("a binding of an unknown kind");
 }
 
 vk::raii::DescriptorSetLayout makeSetLayout(const Device& device, const KernelCode& code) {
@@ -80,12 +87,12 @@ BoundKernel::BoundKernel(const Device& device, const Kernel& kernel, const Resou
         const vk::DescriptorType type = descriptorType(bindings[i].kind);
         sizes.emplace_back(type, 1);
         vk::WriteDescriptorSet write({}, bindings[i].binding, 0, 1, type);
-        if (bindings[i].kind == BindingKind::storageBuffer) {
-            buffers[i] = vk::DescriptorBufferInfo(buffer.handle(), 0, VK_WHOLE_SIZE);
-            write.setBufferInfo(buffers[i]);
-        } else {
+        if (bindings[i].kind == BindingKind::uniformTexelBuffer) {
             views[i] = buffer.texelView();
             write.setTexelBufferView(views[i]);
+        } else {
+            buffers[i] = vk::DescriptorBufferInfo(buffer.handle(), 0, VK_WHOLE_SIZE);
+            write.setBufferInfo(buffers[i]);
         }
         writes.push_back(write);
     }

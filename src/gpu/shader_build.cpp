@@ -59,6 +59,12 @@ std::vector<KernelBinding> reflectBindings(const glslang::TProgram& program) {
         bindings.push_back(
             {block.name, static_cast<uint32_t>(block.getBinding()), BindingKind::storageBuffer});
     }
+    for (int i = 0; i < program.getNumUniformBlocks(); ++i) {
+        const glslang::TObjectReflection& block = program.getUniformBlock(i);
+        if (!block.getType()->getQualifier().layoutPushConstant)
+            bindings.push_back(
+                {block.name, static_cast<uint32_t>(block.getBinding()), BindingKind::uniformBuffer});
+    }
     std::sort(bindings.begin(), bindings.end(),
               [](const KernelBinding& a, const KernelBinding& b) { return a.binding < b.binding; });
     return bindings;

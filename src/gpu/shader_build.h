@@ -8,9 +8,9 @@
 
 namespace lavalight::gpu {
 
-enum class BindingKind { storageBuffer, uniformTexelBuffer };
+enum class BindingKind { storageBuffer, uniformBuffer, uniformTexelBuffer };
 
-// One resource of a kernel, in descriptor set 0. `name` is the block's name for storage buffers and the variable's
+// One resource of a kernel, in descriptor set 0. `name` is the block's name for storage and uniform buffers and the variable's
 // name for texel buffers.
 struct KernelBinding {
     std::string name;

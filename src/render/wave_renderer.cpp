@@ -11,7 +11,7 @@ namespace {
 
 gpu::Buffer uploadFrame(gpu::Device& device, FrameParameters parameters, const FilmBand& band) {
     parameters.bandPixels = band.rows * parameters.imageWidth;
-    gpu::Buffer buffer(device, "frame parameters", sizeof(FrameParameters), gpu::BufferUse::storage);
+    gpu::Buffer buffer(device, "frame parameters", sizeof(FrameParameters), gpu::BufferUse::uniform);
     buffer.upload(std::span<const FrameParameters>(&parameters, 1));
     return buffer;
 }

@@ -30,7 +30,7 @@ class FilmTest : public DeviceTest {
         parameters.imageHeight = kHeight;
         parameters.bandPixels = kPixels;
         parameters.waveSize = kPixels;
-        gpu::Buffer frame(device(), "frame", sizeof parameters, gpu::BufferUse::storage);
+        gpu::Buffer frame(device(), "frame", sizeof parameters, gpu::BufferUse::uniform);
         frame.upload(std::span<const FrameParameters>(&parameters, 1));
         gpu::Buffer paths(device(), "paths", kPixels * sizeof(Path), gpu::BufferUse::storage);
         gpu::ResourceTable resources;
@@ -40,7 +40,7 @@ class FilmTest : public DeviceTest {
         resources.set("Tallies", film.tallies());
         const gpu::Kernel kernel(device(), kernels::find("accumulate"));
         const gpu::BoundKernel bound(device(), kernel, resources);
-        const WaveRange range{0, kPixels, 0, 1, 0, 0};
+        const WaveRange range{0, kPixels, 0, 1, 0, 0, 0, 0};
         gpu::Commands commands(device());
         for (const std::vector<Path>& wave : waves) {
             paths.upload(std::span<const Path>(wave));

@@ -71,16 +71,20 @@ TEST_F(ShaderBuildTest, BindingsAndPushConstantsAreFoundByName) {
                          "layout(set = 0, binding = 7) uniform usamplerBuffer nodes;\n"
                          "layout(set = 0, binding = 2, std430) buffer Words { uint words[]; };\n"
                          "layout(set = 0, binding = 4, std430) buffer Unused { uint unused[]; };\n"
+                         "layout(set = 0, binding = 5, std140) uniform Numbers { uint d; };\n"
                          "layout(push_constant) uniform Push { uint a; uint b; uint c; };\n"
-                         "void main() { words[a] = texelFetch(nodes, int(b + c)).x; }\n");
+                         "void main() { words[a] = texelFetch(nodes, int(b + c)).x + d; }\n");
     const gpu::KernelCode code = compile("kernel.comp");
-    ASSERT_EQ(code.bindings.size(), 2u); // of those that are used
+    ASSERT_EQ(code.bindings.size(), 3u); // of those that are used
     EXPECT_EQ(code.bindings[0].name, "Words");
     EXPECT_EQ(code.bindings[0].binding, 2u);
     EXPECT_EQ(code.bindings[0].kind, gpu::BindingKind::storageBuffer);
-    EXPECT_EQ(code.bindings[1].name, "nodes");
-    EXPECT_EQ(code.bindings[1].binding, 7u);
-    EXPECT_EQ(code.bindings[1].kind, gpu::BindingKind::uniformTexelBuffer);
+    EXPECT_EQ(code.bindings[1].name, "Numbers");
+    EXPECT_EQ(code.bindings[1].binding, 5u);
+    EXPECT_EQ(code.bindings[1].kind, gpu::BindingKind::uniformBuffer);
+    EXPECT_EQ(code.bindings[2].name, "nodes");
+    EXPECT_EQ(code.bindings[2].binding, 7u);
+    EXPECT_EQ(code.bindings[2].kind, gpu::BindingKind::uniformTexelBuffer);
     EXPECT_EQ(code.pushConstantBytes, 12u);
 }
 
