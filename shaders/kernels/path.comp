@@ -13,9 +13,12 @@ layout(set = 0, binding = BINDING_LANE_COUNTERS, std430) buffer LaneCounts { Lan
 
 void main() {
     const uint index = gl_GlobalInvocationID.x;
-    const uint end = min((index + 1u) * range.slotsPerLane, slotCount());
+    const uint first = index * range.slotsPerLane;
+    const uint end = min(first + range.slotsPerLane, slotCount());
+    if (first >= end)
+        return;
     Lane lane;
-    lane.slot = range.isFirst != 0u ? index * range.slotsPerLane : lanes[index].slot;
+    lane.slot = range.isFirst != 0u ? first : lanes[index].slot;
     if (lane.slot >= end)
         return;
     lane.bounce = range.isFirst != 0u ? 0u : lanes[index].bounce;

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "scene/builtin.h"
+#include "support/patched_kernel.h"
 #include "support/render_scene.h"
 #include "support/test_device.h"
 
@@ -35,10 +36,41 @@ TEST_F(Determinism, AnotherSeedIsAnotherImageOfTheSameMean) {
 
 TEST_F(Determinism, WaveSizeChangesNoBit) {
     const std::vector<uint32_t> expected = filmOf(baseSettings());
-    for (const uint32_t waveSize : {1000u, 4096u, 65536u}) {
-        RenderSettings settings = baseSettings();
-        settings.waveSize = waveSize;
-        EXPECT_EQ(filmOf(settings), expected) << waveSize;
+    for (const Kernels kernels : {Kernels::fused, Kernels::wavefront})
+        for (const uint32_t waveSize : {1000u, 4096u, 65536u}) {
+            RenderSettings settings = baseSettings();
+            settings.kernels = kernels;
+            settings.waveSize = waveSize;
+            EXPECT_EQ(filmOf(settings), expected) << waveSize;
+        }
+}
+
+// Whole paths in one kernel, many dispatches for each of them where paths are long.
+TEST_F(Determinism, FusedKernelsAndTheWavefrontGiveTheSameBits) {
+    for (const char* name : {"cornell-glass", "veach-mis", "many-lights"}) {
+        const Scene scene = loadScene(name);
+        RenderSettings settings = imageSettings(40, 36, 130); // lanes of several slots, the last ones not full
+        settings.estimator.roulette = Roulette::off;
+        settings.kernels = Kernels::fused;
+        const RenderResult fused = renderScene(device(), scene, settings);
+        settings.kernels = Kernels::wavefront;
+        const RenderResult wavefront = renderScene(device(), scene, settings);
+        EXPECT_EQ(fused.filmWords, wavefront.filmWords) << name;
+        EXPECT_EQ(fused.tallies.cutPaths, wavefront.tallies.cutPaths) << name;
+        EXPECT_NEAR(fused.tallies.cutThroughput, wavefront.tallies.cutThroughput, 1e-9) << name;
+    }
+}
+
+// What a scene has not is left out of its kernels: with everything left in, the bits are the same.
+TEST_F(Determinism, KernelsSpecialisedToTheSceneGiveTheBitsOfGeneralOnes) {
+    for (const char* name : {"cornell-box", "cornell-glass", "veach-mis", "glass-caustic", "furnace", "large-small-light"}) {
+        const Scene scene = loadScene(name);
+        const RenderSettings settings = imageSettings(40, 36, 4);
+        const RenderResult special = renderScene(device(), scene, settings);
+        const RenderResult general = renderScene(device(), scene, settings, [](std::string_view kernel) {
+            return patchedKernel(kernel, {"lib/features.glsl", "(kFeatures & feature) != 0u", "feature != 0u"});
+        });
+        EXPECT_EQ(special.filmWords, general.filmWords) << name;
     }
 }
 

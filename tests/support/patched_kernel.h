@@ -1,0 +1,20 @@
+// Kernels compiled from sources with a change: to break an estimator on purpose, or to take out a shortcut.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "gpu/shader_build.h"
+
+namespace lavalight::test {
+
+struct Patch {
+    std::string file; // below shaders/
+    std::string from; // found exactly once in it
+    std::string to;
+};
+
+// Throws std::runtime_error where the patch does not apply.
+[[nodiscard]] gpu::KernelCode patchedKernel(std::string_view kernel, const Patch& patch);
+
+} // namespace lavalight::test

@@ -1,0 +1,73 @@
+// What a scene is said to have: a feature that it has and that is not reported would be missing from its image.
+#include <gtest/gtest.h>
+
+#include "render/scene_features.h"
+#include "shared/scene.h"
+
+namespace lavalight::test {
+namespace {
+
+Material lambert() {
+    Material material;
+    material.metallic = 0.0f;
+    material.specular = 0.0f;
+    return material;
+}
+
+uint32_t featuresOf(const Scene& scene) {
+    return sceneFeatures(scene, collectLights(scene, scene.environment, LightSelection::power));
+}
+
+uint32_t featuresOf(const Material& material) {
+    Scene scene;
+    scene.materials = {lambert(), material};
+    return featuresOf(scene);
+}
+
+TEST(SceneFeatures, LambertSurfacesHaveNone) {
+    EXPECT_EQ(featuresOf(lambert()), 0u);
+}
+
+TEST(SceneFeatures, MetalsAndCoatingsAreSpecularAndRoughUnlessTheyAreMirrors) {
+    Material metal = lambert();
+    metal.metallic = 0.5f;
+    EXPECT_EQ(featuresOf(metal), kFeatureSpecular | kFeatureRoughLobes);
+    metal.roughness = 0.01f;
+    EXPECT_EQ(featuresOf(metal), kFeatureSpecular | kFeatureSmoothLobes);
+    Material coated = lambert();
+    coated.specular = 0.1f;
+    EXPECT_EQ(featuresOf(coated), kFeatureSpecular | kFeatureRoughLobes);
+}
+
+TEST(SceneFeatures, GlassIsWhatTransmitsAndIsNoMetal) {
+    Material glass = lambert();
+    glass.transmission = 0.5f;
+    glass.roughness = 0.0f;
+    EXPECT_EQ(featuresOf(glass), kFeatureGlass | kFeatureSmoothLobes);
+    glass.metallic = 1.0f;
+    EXPECT_EQ(featuresOf(glass), kFeatureSpecular | kFeatureSmoothLobes);
+}
+
+TEST(SceneFeatures, LightsAndNormalsAreNamed) {
+    Scene scene;
+    scene.materials = {lambert()};
+    scene.environment = glm::vec3(1.0f);
+    scene.bounds = {glm::vec3(-1.0f), glm::vec3(1.0f)};
+    EXPECT_EQ(featuresOf(scene), kFeatureEnvironment);
+    scene.environment = glm::vec3(0.0f);
+    scene.punctualLights.emplace_back();
+    EXPECT_EQ(featuresOf(scene), kFeaturePunctualLights);
+    scene.punctualLights.clear();
+    Mesh mesh;
+    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    mesh.triangles = {{0, 1, 2}};
+    scene.meshes = {mesh};
+    EXPECT_EQ(featuresOf(scene), 0u);
+    scene.materials.front().emission = glm::vec3(1.0f);
+    EXPECT_EQ(featuresOf(scene), kFeatureTriangleLights);
+    scene.meshes.front().normals.assign(3, {0, 0, 1});
+    EXPECT_EQ(featuresOf(scene), kFeatureTriangleLights | kFeatureShadingNormals);
+}
+
+} // namespace
+} // namespace lavalight::test
