@@ -5,8 +5,8 @@
 namespace lavalight {
 namespace {
 
-// The more slots a lane takes, the less the lengths of its paths matter: of eight lanes with 1, 16, 64 slots the longest
-// takes XXX times the mean. Fewer lanes than this leave processors idle.
+// The more slots a lane takes, the less it matters that paths differ in length: lanes that work in step wait for the longest
+// sum, not for the longest path. Too few lanes leave processors idle.
 constexpr uint32_t kMostSlotsPerLane = 64;
 constexpr uint32_t kFewestLanes = 4096;
 
