@@ -13,9 +13,10 @@ namespace {
 
 void printText(const std::vector<gpu::DeviceDescription>& devices) {
     for (const gpu::DeviceDescription& device : devices)
-        fmt::print("{}  {} ({}, Vulkan {}, {}): {}\n", device.index, device.name, device.type, device.apiVersion,
-                   device.driver,
-                   device.refusals.empty() ? "can render" : fmt::format("refused: {}", fmt::join(device.refusals, "; ")));
+        fmt::print("{}  {} ({}, Vulkan {}, {}): {}\n", device.index, device.name, device.type,
+                   device.apiVersion, device.driver,
+                   device.refusals.empty() ? "can render"
+                                           : fmt::format("refused: {}", fmt::join(device.refusals, "; ")));
 }
 
 void printJson(const std::vector<gpu::DeviceDescription>& devices) {
@@ -40,7 +41,8 @@ DevicesCommand::DevicesCommand(CLI::App& app)
 int DevicesCommand::run() {
     const std::vector<gpu::DeviceDescription> devices = gpu::listDevices();
     json_ ? printJson(devices) : printText(devices);
-    return std::any_of(devices.begin(), devices.end(), [](const auto& d) { return d.refusals.empty(); }) ? 0 : 1;
+    return std::any_of(devices.begin(), devices.end(), [](const auto& d) { return d.refusals.empty(); }) ? 0
+                                                                                                         : 1;
 }
 
 } // namespace lavalight

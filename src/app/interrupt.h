@@ -3,7 +3,8 @@
 
 namespace lavalight {
 
-// While one lives, the first SIGINT or SIGTERM is only remembered; a second one ends the process at once. One at a time.
+// While one lives, the first SIGINT or SIGTERM is only remembered; a second one ends the process at once. One
+// at a time.
 class InterruptGuard {
   public:
     InterruptGuard();

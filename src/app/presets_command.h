@@ -7,7 +7,8 @@ namespace lavalight {
 
 class PresetsCommand : public Command {
   public:
-    explicit PresetsCommand(CLI::App& app) : Command(app, "presets", "List the named settings of render --preset") {}
+    explicit PresetsCommand(CLI::App& app)
+        : Command(app, "presets", "List the named settings of render --preset") {}
     [[nodiscard]] int run() override;
 };
 

@@ -20,7 +20,8 @@ namespace lavalight {
 namespace {
 
 // The whole of `text` as a number, or nothing.
-template <typename Number> std::optional<Number> parseNumber(std::string_view text) {
+template <typename Number>
+std::optional<Number> parseNumber(std::string_view text) {
     Number value{};
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc() || end != text.data() + text.size())
@@ -44,8 +45,8 @@ void parseSize(const std::string& text, RenderSettings& settings) {
     const auto width = parts.size() == 2 ? parseNumber<uint32_t>(parts[0]) : std::nullopt;
     const auto height = parts.size() == 2 ? parseNumber<uint32_t>(parts[1]) : std::nullopt;
     if (!width || !height || *width < 1 || *width > kMaxImageSide || *height < 1 || *height > kMaxImageSide)
-        throw UsageError(
-            fmt::format("--size: \"{}\" is not WIDTHxHEIGHT with sides of 1 to {} pixels", text, kMaxImageSide));
+        throw UsageError(fmt::format("--size: \"{}\" is not WIDTHxHEIGHT with sides of 1 to {} pixels", text,
+                                     kMaxImageSide));
     settings.width = *width;
     settings.height = *height;
 }
@@ -64,8 +65,10 @@ glm::vec3 parseEnvironment(const std::string& text) {
     return radiance;
 }
 
-// Takes one of the names, whatever their case, and hands on the value's number, which is what the parser stores.
-template <typename Value> CLI::Validator oneOf(const std::map<std::string, Value>& values) {
+// Takes one of the names, whatever their case, and hands on the value's number, which is what the parser
+// stores.
+template <typename Value>
+CLI::Validator oneOf(const std::map<std::string, Value>& values) {
     const auto replaceName = [values](std::string& text) -> std::string {
         const auto found = values.find(CLI::detail::to_lower(text));
         if (found == values.end())
@@ -121,61 +124,82 @@ RenderOptions::RenderOptions(CLI::App& parser) : parser_(&parser) {
 void RenderOptions::declareImage(CLI::App& parser) {
     parser.add_option("--size", size_, "Image size in pixels; default: 512 high, as wide as the camera asks")
         ->type_name("WxH");
-    parser.add_option("--camera", camera_, "Camera by name or index; default: the first")->type_name("NAME|INDEX");
+    parser.add_option("--camera", camera_, "Camera by name or index; default: the first")
+        ->type_name("NAME|INDEX");
     parser.add_option("--env", environment_, "Constant radiance from all sides; replaces the scene's")
         ->type_name("R,G,B");
     parser.add_option("--seed", estimator_.seed, "Another seed, other noise")->type_name("N");
 }
 
 void RenderOptions::declareStop(CLI::App& parser) {
-    parser.add_option("--spp", settings_.samples, "Samples per pixel; no limit with --time or --target-error")
+    parser
+        .add_option("--spp", settings_.samples, "Samples per pixel; no limit with --time or --target-error")
         ->type_name("N");
     parser.add_option("--time", settings_.seconds, "Stop after this time")->type_name("SECONDS");
-    parser.add_option("--target-error", settings_.targetError, "Stop at this estimated relMSE; enters the bias ledger")
+    parser
+        .add_option("--target-error", settings_.targetError,
+                    "Stop at this estimated relMSE; enters the bias ledger")
         ->type_name("RELMSE");
 }
 
 void RenderOptions::declareEstimator(CLI::App& parser) {
     EstimatorSettings& e = estimator_;
-    parser.add_option("--preset", preset_, "Settings by name (see lavalight presets); other options change them")
+    parser
+        .add_option("--preset", preset_,
+                    "Settings by name (see lavalight presets); other options change them")
         ->type_name("NAME");
     addNamed(parser, "--sampler", e.sampler, "Sample numbers: Owen-scrambled Sobol, or independent");
-    addNamed(parser, "--hemisphere", e.hemisphere, "Directions of diffuse surfaces: by the cosine, or all alike");
-    addSwitch(parser, "--nee", e.nextEventEstimation, "Next-event estimation; off: light is found only by hitting it");
+    addNamed(parser, "--hemisphere", e.hemisphere,
+             "Directions of diffuse surfaces: by the cosine, or all alike");
+    addSwitch(parser, "--nee", e.nextEventEstimation,
+              "Next-event estimation; off: light is found only by hitting it");
     addNamed(parser, "--light-selection", e.lightSelection, "Which light NEE picks: by power, or all alike");
     addNamed(parser, "--mis", e.mis, "Weights of light and BSDF samples");
     addSwitch(parser, "--mis-survival", e.misSurvival, "MIS weights count the probability of survival");
     addNamed(parser, "--fresnel", e.fresnel, "Reflectance of glass: exact, or Schlick's approximation");
-    parser.add_option("--max-bounces", e.maxBounces, "Scattering vertices of a path; 0: emission only, 1: direct light")
+    parser
+        .add_option("--max-bounces", e.maxBounces,
+                    "Scattering vertices of a path; 0: emission only, 1: direct light")
         ->type_name("N");
-    parser.add_option("--clamp-indirect", clampIndirect_, "Largest indirect contribution; biased, enters the ledger")
+    parser
+        .add_option("--clamp-indirect", clampIndirect_,
+                    "Largest indirect contribution; biased, enters the ledger")
         ->type_name("off|X");
 }
 
 void RenderOptions::declareRoulette(CLI::App& parser) {
     EstimatorSettings& e = estimator_;
     addNamed(parser, "--roulette", e.roulette, "What decides whether a path goes on");
-    parser.add_option("--roulette-start", e.rouletteStart, "First vertex where a path may die (first hit: 1)")
+    parser
+        .add_option("--roulette-start", e.rouletteStart, "First vertex where a path may die (first hit: 1)")
         ->type_name("N");
-    parser.add_option("--roulette-probability", e.rouletteProbability, "Survival probability of --roulette constant")
+    parser
+        .add_option("--roulette-probability", e.rouletteProbability,
+                    "Survival probability of --roulette constant")
         ->type_name("P");
 }
 
 void RenderOptions::declareDevice(CLI::App& parser) {
     parser.add_option("--device", device_.wanted, "Vulkan device by name or index (see lavalight devices)")
         ->type_name("NAME|INDEX");
-    const std::map<std::string, gpu::RequiredDevice> kinds{
-        {"any", gpu::RequiredDevice::any}, {"cpu", gpu::RequiredDevice::cpu}, {"gpu", gpu::RequiredDevice::gpu}};
+    const std::map<std::string, gpu::RequiredDevice> kinds{{"any", gpu::RequiredDevice::any},
+                                                           {"cpu", gpu::RequiredDevice::cpu},
+                                                           {"gpu", gpu::RequiredDevice::gpu}};
     parser.add_option("--require-device", device_.required, "Refuse to run on another kind of device")
         ->type_name("any|cpu|gpu")
         ->transform(oneOf(kinds))
         ->default_str("any");
-    parser.add_flag("--validate", device_.validate, "Run the Vulkan validation layer; any message fails the render");
-    addNamed(parser, "--kernels", settings_.kernels, "One kernel for whole paths, or one for each step; auto: by device");
-    parser.add_option("--wave-size", settings_.waveSize, "Paths in flight; 0: by the kernels; changes no bit of the image")
+    parser.add_flag("--validate", device_.validate,
+                    "Run the Vulkan validation layer; any message fails the render");
+    addNamed(parser, "--kernels", settings_.kernels,
+             "One kernel for whole paths, or one for each step; auto: by device");
+    parser
+        .add_option("--wave-size", settings_.waveSize,
+                    "Paths in flight; 0: by the kernels; changes no bit of the image")
         ->type_name("N");
-    parser.add_option("--band-rows", settings_.bandRows,
-                      "Rows of a film band; 0: as many as fit; changes no bit of the image")
+    parser
+        .add_option("--band-rows", settings_.bandRows,
+                    "Rows of a film band; 0: as many as fit; changes no bit of the image")
         ->type_name("N");
 }
 
@@ -225,7 +249,8 @@ const Camera& RenderOptions::pickCamera(const Scene& scene) const {
     std::string known;
     for (size_t i = 0; i < scene.cameras.size(); ++i)
         known += fmt::format("{}{} \"{}\"", i > 0 ? ", " : "", i, scene.cameras[i].name);
-    throw UsageError(fmt::format("--camera: {} has no camera \"{}\"; it has {}", scene.source, camera_, known));
+    throw UsageError(
+        fmt::format("--camera: {} has no camera \"{}\"; it has {}", scene.source, camera_, known));
 }
 
 } // namespace lavalight

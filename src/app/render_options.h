@@ -11,7 +11,8 @@
 
 namespace lavalight {
 
-// Declares options on a parser and turns their values into settings. Must outlive the parsing; the parser points into it.
+// Declares options on a parser and turns their values into settings. Must outlive the parsing; the parser
+// points into it.
 class RenderOptions {
   public:
     explicit RenderOptions(CLI::App& parser);

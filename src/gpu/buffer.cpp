@@ -27,7 +27,8 @@ vk::BufferUsageFlags usageFlags(BufferUse use) {
     return copies | Usage::eStorageBuffer | Usage::eIndirectBuffer;
 }
 
-// Best first: what the host can map costs no staging copy, and on CPUs and integrated GPUs it is the same memory.
+// Best first: what the host can map costs no staging copy, and on CPUs and integrated GPUs it is the same
+// memory.
 std::vector<vk::MemoryPropertyFlags> memoryWishes(BufferUse use) {
     using Memory = vk::MemoryPropertyFlagBits;
     const vk::MemoryPropertyFlags mappable = Memory::eHostVisible | Memory::eHostCoherent;
@@ -69,8 +70,9 @@ void Buffer::allocate() {
     if (type == ~0u)
         throw Error(fmt::format("cannot allocate {}: no suitable memory type", name_));
     reservation_ = device_->reserve(needs.size, name_);
-    memory_ = checked("allocate", name_,
-                      [&] { return vk::raii::DeviceMemory(device, vk::MemoryAllocateInfo(needs.size, type)); });
+    memory_ = checked("allocate", name_, [&] {
+        return vk::raii::DeviceMemory(device, vk::MemoryAllocateInfo(needs.size, type));
+    });
     buffer_.bindMemory(*memory_, 0);
     using Memory = vk::MemoryPropertyFlagBits;
     const uint32_t mappable =
@@ -79,8 +81,8 @@ void Buffer::allocate() {
         mapped_ = checked("map", name_, [&] { return memory_.mapMemory(0, VK_WHOLE_SIZE); });
     if (use_ == BufferUse::texels)
         view_ = checked("view", name_, [&] {
-            return vk::raii::BufferView(
-                device, vk::BufferViewCreateInfo({}, *buffer_, kTexelFormat, 0, size / kTexelBytes * kTexelBytes));
+            return vk::raii::BufferView(device, vk::BufferViewCreateInfo({}, *buffer_, kTexelFormat, 0,
+                                                                         size / kTexelBytes * kTexelBytes));
         });
 }
 

@@ -24,16 +24,16 @@ enum class BufferUse {
 // One Vulkan buffer with its memory. Contents are undefined until written. Moves, never copies.
 class Buffer {
   public:
-    // `bytes` may be 0 (a kernel then binds an element that it never reads). Throws Error where a limit of the device
-    // or its memory is exceeded, with the figures.
+    // `bytes` may be 0 (a kernel then binds an element that it never reads). Throws Error where a limit of
+    // the device or its memory is exceeded, with the figures.
     Buffer(Device& device, std::string name, uint64_t bytes, BufferUse use);
 
     [[nodiscard]] const std::string& name() const { return name_; }
     [[nodiscard]] uint64_t bytes() const { return bytes_; }
     [[nodiscard]] BufferUse use() const { return use_; }
 
-    // Host to device and back, waiting for the copy; through a staging buffer where the memory cannot be mapped.
-    // Not while a submission that uses the buffer is running. `data` must not exceed the buffer.
+    // Host to device and back, waiting for the copy; through a staging buffer where the memory cannot be
+    // mapped. Not while a submission that uses the buffer is running. `data` must not exceed the buffer.
     void upload(std::span<const std::byte> data);
     void download(std::span<std::byte> data) const;
 

@@ -61,12 +61,14 @@ void Commands::finishCommand() {
     using Stage = vk::PipelineStageFlagBits;
     const vk::PipelineStageFlags work = Stage::eComputeShader | Stage::eTransfer;
     const vk::MemoryBarrier barrier(Access::eShaderWrite | Access::eTransferWrite,
-                                    Access::eShaderRead | Access::eShaderWrite | Access::eIndirectCommandRead |
-                                        Access::eTransferRead | Access::eTransferWrite | Access::eHostRead);
+                                    Access::eShaderRead | Access::eShaderWrite |
+                                        Access::eIndirectCommandRead | Access::eTransferRead |
+                                        Access::eTransferWrite | Access::eHostRead);
     recorded(buffers_).pipelineBarrier(work, work | Stage::eDrawIndirect | Stage::eHost, {}, barrier, {}, {});
 }
 
-void Commands::dispatch(const BoundKernel& kernel, uint32_t groups, std::span<const std::byte> pushConstants) {
+void Commands::dispatch(const BoundKernel& kernel, uint32_t groups,
+                        std::span<const std::byte> pushConstants) {
     assert(groups <= device_->limits().maxGroups);
     prepareDispatch(kernel, pushConstants);
     recorded(buffers_).dispatch(groups, 1, 1);
@@ -120,7 +122,8 @@ void Commands::collectTimes() {
         if (stamps_[i].empty())
             continue;
         KernelTime& time = times_[stamps_[i]];
-        time.seconds += static_cast<double>(ticks[i] - ticks[i - 1]) * device_->limits().timestampNanoseconds * 1e-9;
+        time.seconds +=
+            static_cast<double>(ticks[i] - ticks[i - 1]) * device_->limits().timestampNanoseconds * 1e-9;
         ++time.dispatches;
     }
 }

@@ -24,7 +24,8 @@ struct KernelTime {
 };
 using KernelTimes = std::map<std::string, KernelTime, std::less<>>;
 
-// Records and runs one command buffer again and again. Every recorded command sees the writes of the ones before it.
+// Records and runs one command buffer again and again. Every recorded command sees the writes of the ones
+// before it.
 class Commands {
   public:
     explicit Commands(Device& device);

@@ -15,9 +15,9 @@ namespace lavalight::gpu {
 enum class RequiredDevice { any, cpu, gpu };
 
 struct DeviceConfig {
-    std::string wanted;                             // index or part of a name; empty: the first usable, GPUs first
-    RequiredDevice required = RequiredDevice::any;  // refuse to run on anything else
-    bool validate = false;                          // Khronos validation layer with synchronisation checks
+    std::string wanted; // index or part of a name; empty: the first usable, GPUs first
+    RequiredDevice required = RequiredDevice::any; // refuse to run on anything else
+    bool validate = false;                         // Khronos validation layer with synchronisation checks
 };
 
 // One line of `lavalight devices`.
@@ -39,7 +39,7 @@ struct DeviceLimits {
     uint64_t maxTexelBufferElements = 0;
     uint32_t maxGroups = 0; // workgroups of one dispatch, x
     uint32_t subgroupSize = 0;
-    uint64_t memoryBytes = 0; // the largest device-local heap
+    uint64_t memoryBytes = 0;          // the largest device-local heap
     double timestampNanoseconds = 0.0; // 0: no timestamps on the queue
 };
 
@@ -81,7 +81,8 @@ class Device {
     // Bytes of the buffers alive now, and the most there ever were.
     [[nodiscard]] uint64_t allocatedBytes() const { return allocatedBytes_; }
     [[nodiscard]] uint64_t peakAllocatedBytes() const { return peakAllocatedBytes_; }
-    // Throws Error if `bytes` more would not fit in the device's memory; otherwise counts them while the result lives.
+    // Throws Error if `bytes` more would not fit in the device's memory; otherwise counts them while the
+    // result lives.
     [[nodiscard]] MemoryReservation reserve(uint64_t bytes, std::string_view object);
 
     [[nodiscard]] const vk::raii::Device& handle() const { return device_; }

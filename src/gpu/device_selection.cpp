@@ -76,9 +76,9 @@ std::vector<std::string> unwanted(const DeviceDescription& device, const DeviceC
         reasons.emplace_back("--require-device cpu");
     if (config.required == RequiredDevice::gpu && device.isCpu)
         reasons.emplace_back("--require-device gpu");
-    const bool isIndex = !config.wanted.empty() &&
-                         std::all_of(config.wanted.begin(), config.wanted.end(),
-                                     [](unsigned char c) { return std::isdigit(c) != 0; });
+    const bool isIndex =
+        !config.wanted.empty() && std::all_of(config.wanted.begin(), config.wanted.end(),
+                                              [](unsigned char c) { return std::isdigit(c) != 0; });
     if (isIndex && config.wanted != std::to_string(device.index))
         reasons.push_back(fmt::format("its index is not {}", config.wanted));
     if (!isIndex && lowerCase(device.name).find(lowerCase(config.wanted)) == std::string::npos)
@@ -112,8 +112,9 @@ DeviceDescription describeDevice(const vk::raii::PhysicalDevice& physical, uint3
     if (properties.apiVersion < VK_API_VERSION_1_2) {
         description.refusals.push_back(fmt::format("Vulkan {}, 1.2 needed", description.apiVersion));
     } else {
-        const auto chain = physical.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceDriverProperties,
-                                                   vk::PhysicalDeviceSubgroupProperties>();
+        const auto chain =
+            physical.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceDriverProperties,
+                                    vk::PhysicalDeviceSubgroupProperties>();
         const auto& driver = chain.get<vk::PhysicalDeviceDriverProperties>();
         description.driver = fmt::format("{} {}", driver.driverName.data(), driver.driverInfo.data());
         refuseBySubgroups(chain.get<vk::PhysicalDeviceSubgroupProperties>(), description.refusals);
@@ -130,14 +131,15 @@ uint32_t chooseDevice(const std::vector<DeviceDescription>& devices, const Devic
     for (uint32_t i = 0; i < devices.size(); ++i) {
         const std::vector<std::string> refused = unwanted(devices[i], config);
         if (!refused.empty())
-            reasons += fmt::format("; {} {}: {}", devices[i].index, devices[i].name, fmt::join(refused, ", "));
+            reasons +=
+                fmt::format("; {} {}: {}", devices[i].index, devices[i].name, fmt::join(refused, ", "));
         else if (!best || (devices[*best].isCpu && !devices[i].isCpu))
             best = i;
     }
     if (!best)
-        throw Error(fmt::format("no usable Vulkan device{}",
-                                devices.empty() ? ": none found; Debian's mesa-vulkan-drivers has one for CPUs"
-                                                : reasons));
+        throw Error(fmt::format(
+            "no usable Vulkan device{}",
+            devices.empty() ? ": none found; Debian's mesa-vulkan-drivers has one for CPUs" : reasons));
     return *best;
 }
 

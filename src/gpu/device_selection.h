@@ -17,6 +17,7 @@ namespace lavalight::gpu {
 [[nodiscard]] std::optional<uint32_t> findComputeFamily(const vk::raii::PhysicalDevice& physical);
 
 // Index into `devices` by the wishes of `config`: GPUs before CPUs. Throws Error with each device's reasons.
-[[nodiscard]] uint32_t chooseDevice(const std::vector<DeviceDescription>& devices, const DeviceConfig& config);
+[[nodiscard]] uint32_t chooseDevice(const std::vector<DeviceDescription>& devices,
+                                    const DeviceConfig& config);
 
 } // namespace lavalight::gpu

@@ -48,8 +48,8 @@ vk::raii::Pipeline makePipeline(const Device& device, const KernelCode& code, vk
                              sizeof(uint32_t));
         values.push_back(constant.value);
     }
-    const vk::SpecializationInfo specialisation(
-        static_cast<uint32_t>(entries.size()), entries.data(), values.size() * sizeof(uint32_t), values.data());
+    const vk::SpecializationInfo specialisation(static_cast<uint32_t>(entries.size()), entries.data(),
+                                                values.size() * sizeof(uint32_t), values.data());
     const vk::ShaderModuleCreateInfo moduleInfo({}, code.spirv);
     const vk::raii::ShaderModule shader(device.handle(), moduleInfo);
     const vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *shader, "main",

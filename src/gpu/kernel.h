@@ -41,10 +41,13 @@ class Kernel {
     vk::raii::Pipeline pipeline_ = nullptr;
 };
 
-// Buffers under the names that kernels declare them by. The buffers must outlive the table and what is bound from it.
+// Buffers under the names that kernels declare them by. The buffers must outlive the table and what is bound
+// from it.
 class ResourceTable {
   public:
-    void set(std::string_view name, const Buffer& buffer) { buffers_.insert_or_assign(std::string(name), &buffer); }
+    void set(std::string_view name, const Buffer& buffer) {
+        buffers_.insert_or_assign(std::string(name), &buffer);
+    }
     // Throws std::logic_error for a name that was never set: a bug in the caller.
     [[nodiscard]] const Buffer& get(std::string_view name) const;
 
@@ -52,7 +55,8 @@ class ResourceTable {
     std::map<std::string, const Buffer*, std::less<>> buffers_;
 };
 
-// A kernel with its descriptor set filled from a table by the names in the shader. The kernel must outlive it.
+// A kernel with its descriptor set filled from a table by the names in the shader. The kernel must outlive
+// it.
 class BoundKernel {
   public:
     BoundKernel(const Device& device, const Kernel& kernel, const ResourceTable& resources);

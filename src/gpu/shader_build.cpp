@@ -5,10 +5,10 @@
 #include <mutex>
 #include <set>
 
-#include <glslang/SPIRV/GlslangToSpv.h>
 #include <fmt/format.h>
 #include <glslang/Public/ResourceLimits.h>
 #include <glslang/Public/ShaderLang.h>
+#include <glslang/SPIRV/GlslangToSpv.h>
 
 #include "base/error.h"
 #include "base/file.h"
@@ -16,7 +16,8 @@
 namespace lavalight::gpu {
 namespace {
 
-// Resolves includes against one root. A file asked for twice comes back empty the second time: include guards for free.
+// Resolves includes against one root. A file asked for twice comes back empty the second time: include guards
+// for free.
 class RootIncluder : public glslang::TShader::Includer {
   public:
     explicit RootIncluder(std::filesystem::path root) : root_(std::move(root)) {}
@@ -51,8 +52,8 @@ std::vector<KernelBinding> reflectBindings(const glslang::TProgram& program) {
     for (int i = 0; i < program.getNumUniformVariables(); ++i) {
         const glslang::TObjectReflection& uniform = program.getUniform(i);
         if (uniform.getType()->getBasicType() == glslang::EbtSampler)
-            bindings.push_back({uniform.name, static_cast<uint32_t>(uniform.getBinding()),
-                                BindingKind::uniformTexelBuffer});
+            bindings.push_back(
+                {uniform.name, static_cast<uint32_t>(uniform.getBinding()), BindingKind::uniformTexelBuffer});
     }
     for (int i = 0; i < program.getNumBufferBlocks(); ++i) {
         const glslang::TObjectReflection& block = program.getBufferBlock(i);

@@ -1,4 +1,5 @@
-// Compiles GLSL compute kernels to SPIR-V with glslang, in process: the build, the program and the tests share this code.
+// Compiles GLSL compute kernels to SPIR-V with glslang, in process: the build, the program and the tests
+// share this code.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +11,8 @@ namespace lavalight::gpu {
 
 enum class BindingKind { storageBuffer, uniformBuffer, uniformTexelBuffer };
 
-// One resource of a kernel, in descriptor set 0. `name` is the block's name for storage and uniform buffers and the variable's
-// name for texel buffers.
+// One resource of a kernel, in descriptor set 0. `name` is the block's name for storage and uniform buffers
+// and the variable's name for texel buffers.
 struct KernelBinding {
     std::string name;
     uint32_t binding = 0;
@@ -26,9 +27,9 @@ struct KernelCode {
     uint32_t pushConstantBytes = 0;
 };
 
-// Compiles the entry point in `file` (GLSL 4.60, SPIR-V 1.5 for Vulkan 1.2). #include "a/b.glsl" is resolved in
-// `includeRoot` alone, so that a file is found by the same name from everywhere; each file is included once.
-// Throws Error with the compiler's message, file names and line numbers.
+// Compiles the entry point in `file` (GLSL 4.60, SPIR-V 1.5 for Vulkan 1.2). #include "a/b.glsl" is resolved
+// in `includeRoot` alone, so that a file is found by the same name from everywhere; each file is included
+// once. Throws Error with the compiler's message, file names and line numbers.
 [[nodiscard]] KernelCode compileKernel(const std::filesystem::path& file,
                                        const std::filesystem::path& includeRoot);
 

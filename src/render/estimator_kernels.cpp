@@ -8,7 +8,8 @@ gpu::KernelCode embeddedKernel(std::string_view name) {
     return kernels::find(name);
 }
 
-std::vector<gpu::SpecialisationConstant> estimatorConstants(const EstimatorSettings& settings, uint32_t features) {
+std::vector<gpu::SpecialisationConstant> estimatorConstants(const EstimatorSettings& settings,
+                                                            uint32_t features) {
     return {{CONSTANT_SAMPLER, static_cast<uint32_t>(settings.sampler)},
             {CONSTANT_HEMISPHERE, static_cast<uint32_t>(settings.hemisphere)},
             {CONSTANT_NEE, settings.nextEventEstimation ? 1u : 0u},

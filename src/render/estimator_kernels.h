@@ -17,8 +17,8 @@ using KernelSource = std::function<gpu::KernelCode(std::string_view name)>;
 // Those that the build compiled.
 [[nodiscard]] gpu::KernelCode embeddedKernel(std::string_view name);
 
-// For lib/estimator.glsl and lib/features.glsl; `features`: of the scene, kFeature... bits. Kernels ignore constants that
-// they do not declare.
+// For lib/estimator.glsl and lib/features.glsl; `features`: of the scene, kFeature... bits. Kernels ignore
+// constants that they do not declare.
 [[nodiscard]] std::vector<gpu::SpecialisationConstant> estimatorConstants(const EstimatorSettings& settings,
                                                                           uint32_t features);
 

@@ -21,15 +21,16 @@ struct FilmBand {
 
 // Events that the ledger reports, counted by the kernels.
 struct FilmTallies {
-    uint64_t droppedSamples = 0;  // NaN or infinity
+    uint64_t droppedSamples = 0; // NaN or infinity
     uint64_t saturatedSums = 0;
-    uint64_t cutPaths = 0;        // ended by --max-bounces while they carried light
-    double cutThroughput = 0.0;   // mean over the cut paths
+    uint64_t cutPaths = 0;      // ended by --max-bounces while they carried light
+    double cutThroughput = 0.0; // mean over the cut paths
 };
 
 class Film {
   public:
-    // bandRows 0: as many as one storage buffer of the device holds. Throws Error where memory does not suffice.
+    // bandRows 0: as many as one storage buffer of the device holds. Throws Error where memory does not
+    // suffice.
     Film(gpu::Device& device, uint32_t width, uint32_t height, uint32_t bandRows);
 
     [[nodiscard]] uint32_t width() const { return width_; }

@@ -5,8 +5,8 @@
 namespace lavalight {
 namespace {
 
-// The more slots a lane takes, the less it matters that paths differ in length: lanes that work in step wait for the longest
-// sum, not for the longest path. Too few lanes leave processors idle.
+// The more slots a lane takes, the less it matters that paths differ in length: lanes that work in step wait
+// for the longest sum, not for the longest path. Too few lanes leave processors idle.
 constexpr uint32_t kMostSlotsPerLane = 64;
 constexpr uint32_t kFewestLanes = 4096;
 
@@ -34,9 +34,10 @@ gpu::ResourceTable FusedPaths::State::table() const {
     return resources;
 }
 
-FusedPaths::Band::Band(gpu::Device& device, const FusedPaths& kernels, const WaveInputs& inputs, const FilmBand& film)
-    : resources(device, inputs, film, kernels.state_.table()),
-      path(device, kernels.path_, resources.table), accumulate(device, kernels.accumulate_, resources.table) {}
+FusedPaths::Band::Band(gpu::Device& device, const FusedPaths& kernels, const WaveInputs& inputs,
+                       const FilmBand& film)
+    : resources(device, inputs, film, kernels.state_.table()), path(device, kernels.path_, resources.table),
+      accumulate(device, kernels.accumulate_, resources.table) {}
 
 FusedPaths::FusedPaths(gpu::Device& device, const WaveInputs& inputs)
     : WaveRenderer(device),

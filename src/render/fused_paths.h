@@ -1,4 +1,5 @@
-// Waves rendered by one kernel that takes whole paths, from the camera to their ends: shaders/kernels/path.comp.
+// Waves rendered by one kernel that takes whole paths, from the camera to their ends:
+// shaders/kernels/path.comp.
 #pragma once
 
 #include <vector>

@@ -46,11 +46,10 @@ std::vector<TriangleNormals> packNormals(const Scene& scene) {
     packed.reserve(scene.triangleCount());
     for (const Mesh& mesh : scene.meshes)
         for (const glm::uvec3& t : mesh.triangles)
-            packed.push_back(mesh.normals.empty()
-                                 ? TriangleNormals{}
-                                 : TriangleNormals{encodeOctahedral(mesh.normals[t.x]),
-                                                   encodeOctahedral(mesh.normals[t.y]),
-                                                   encodeOctahedral(mesh.normals[t.z]), 0});
+            packed.push_back(mesh.normals.empty() ? TriangleNormals{}
+                                                  : TriangleNormals{encodeOctahedral(mesh.normals[t.x]),
+                                                                    encodeOctahedral(mesh.normals[t.y]),
+                                                                    encodeOctahedral(mesh.normals[t.z]), 0});
     return packed;
 }
 
@@ -61,12 +60,13 @@ uint32_t materialFlags(const Material& material) {
 std::vector<MaterialRecord> packMaterials(const Scene& scene) {
     std::vector<MaterialRecord> packed;
     for (const Material& m : scene.materials)
-        packed.push_back({m.baseColor, m.metallic, m.emission, m.roughness, m.specularColor, m.specular, m.ior,
-                          m.transmission, materialFlags(m), 0});
+        packed.push_back({m.baseColor, m.metallic, m.emission, m.roughness, m.specularColor, m.specular,
+                          m.ior, m.transmission, materialFlags(m), 0});
     return packed;
 }
 
-// What light number i is, in the encoding of LightRecord::source; emitters by the first leaf triangle that shows them.
+// What light number i is, in the encoding of LightRecord::source; emitters by the first leaf triangle that
+// shows them.
 std::vector<uint32_t> lightSources(const Lights& lights, const Bvh& bvh) {
     std::vector<uint32_t> sources(lights.emitters.list.size());
     for (size_t leaf = bvh.leafTriangles.size(); leaf-- > 0;) {
@@ -85,7 +85,8 @@ std::vector<LightRecord> packLights(const Lights& lights, const Bvh& bvh) {
     const std::vector<uint32_t> sources = lightSources(lights, bvh);
     std::vector<LightRecord> packed;
     for (size_t i = 0; i < sources.size(); ++i)
-        packed.push_back({lights.table[i].probability, lights.table[i].alias, lights.table[i].pmf, sources[i]});
+        packed.push_back(
+            {lights.table[i].probability, lights.table[i].alias, lights.table[i].pmf, sources[i]});
     return packed;
 }
 
@@ -125,7 +126,8 @@ GpuScene::Prepared GpuScene::prepare(const Scene& scene, const Lights& lights) {
     const std::vector<Triangle> triangles = sceneTriangles(scene);
     Prepared prepared;
     prepared.bvh = buildBvh(triangles);
-    prepared.leafTriangles = packLeafTriangles(prepared.bvh, triangles, lights.emitters, materialWords(scene));
+    prepared.leafTriangles =
+        packLeafTriangles(prepared.bvh, triangles, lights.emitters, materialWords(scene));
     prepared.normals = packNormals(scene);
     prepared.materials = packMaterials(scene);
     prepared.lights = packLights(lights, prepared.bvh);
@@ -137,7 +139,8 @@ GpuScene::Prepared GpuScene::prepare(const Scene& scene, const Lights& lights) {
 
 namespace {
 
-template <typename T> gpu::Buffer uploadTexels(gpu::Device& device, const char* name, const std::vector<T>& data) {
+template <typename T>
+gpu::Buffer uploadTexels(gpu::Device& device, const char* name, const std::vector<T>& data) {
     static_assert(sizeof(T) % 16 == 0);
     gpu::Buffer buffer(device, name, data.size() * sizeof(T), gpu::BufferUse::texels);
     buffer.upload(std::span<const T>(data));
@@ -146,19 +149,20 @@ template <typename T> gpu::Buffer uploadTexels(gpu::Device& device, const char* 
 
 } // namespace
 
-GpuScene::GpuScene(gpu::Device& device, const Scene& scene, const glm::vec3& environment, LightSelection selection)
+GpuScene::GpuScene(gpu::Device& device, const Scene& scene, const glm::vec3& environment,
+                   LightSelection selection)
     : GpuScene(device, prepare(scene, collectLights(scene, environment, selection))) {}
 
 GpuScene::GpuScene(gpu::Device& device, const Prepared& prepared)
-    : lightCount_(static_cast<uint32_t>(prepared.lights.size())), environmentLight_(prepared.environmentLight),
-      features_(prepared.features),
-      bvhSeconds_(prepared.bvh.buildSeconds),
-      nodes_(uploadTexels(device, "BVH nodes", prepared.bvh.nodes)),
+    : lightCount_(static_cast<uint32_t>(prepared.lights.size())),
+      environmentLight_(prepared.environmentLight), features_(prepared.features),
+      bvhSeconds_(prepared.bvh.buildSeconds), nodes_(uploadTexels(device, "BVH nodes", prepared.bvh.nodes)),
       leafTriangles_(uploadTexels(device, "leaf triangles", prepared.leafTriangles)),
       normals_(uploadTexels(device, "triangle normals", prepared.normals)),
       materials_(uploadTexels(device, "materials", prepared.materials)),
       lights_(uploadTexels(device, "lights", prepared.lights)),
-      punctuals_(uploadTexels(device, "punctual lights", prepared.punctuals)), albedoTable_(makeAlbedoTable(device)) {}
+      punctuals_(uploadTexels(device, "punctual lights", prepared.punctuals)),
+      albedoTable_(makeAlbedoTable(device)) {}
 
 void GpuScene::addTo(gpu::ResourceTable& resources) const {
     resources.set("bvhNodes", nodes_);
@@ -171,8 +175,8 @@ void GpuScene::addTo(gpu::ResourceTable& resources) const {
 }
 
 uint64_t GpuScene::bytes() const {
-    return nodes_.bytes() + leafTriangles_.bytes() + normals_.bytes() + materials_.bytes() + lights_.bytes() + punctuals_.bytes() +
-           albedoTable_.bytes();
+    return nodes_.bytes() + leafTriangles_.bytes() + normals_.bytes() + materials_.bytes() + lights_.bytes() +
+           punctuals_.bytes() + albedoTable_.bytes();
 }
 
 } // namespace lavalight

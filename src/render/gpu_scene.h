@@ -13,8 +13,8 @@ namespace lavalight {
 
 class GpuScene {
   public:
-    // Builds the BVH and the light table, then uploads. `environment`: constant radiance from all sides. Throws Error where
-    // a limit of the device is exceeded.
+    // Builds the BVH and the light table, then uploads. `environment`: constant radiance from all sides.
+    // Throws Error where a limit of the device is exceeded.
     GpuScene(gpu::Device& device, const Scene& scene, const glm::vec3& environment = glm::vec3(0.0f),
              LightSelection selection = LightSelection::power);
 

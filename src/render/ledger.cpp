@@ -7,24 +7,28 @@
 
 namespace lavalight {
 
-std::vector<LedgerEntry> makeLedger(const Scene& scene, const RenderSettings& settings, const FilmTallies& tallies,
-                                    StopReason stop) {
+std::vector<LedgerEntry> makeLedger(const Scene& scene, const RenderSettings& settings,
+                                    const FilmTallies& tallies, StopReason stop) {
     std::vector<LedgerEntry> ledger;
     const EstimatorSettings& estimator = settings.estimator;
     if (std::isfinite(estimator.clampIndirect))
-        ledger.push_back({"clamp-indirect", fmt::format("indirect light was limited to {}", estimator.clampIndirect)});
+        ledger.push_back(
+            {"clamp-indirect", fmt::format("indirect light was limited to {}", estimator.clampIndirect)});
     if (!estimator.nextEventEstimation && !scene.punctualLights.empty())
         ledger.push_back({"unreachable-lights", fmt::format("--nee off cannot find {} lights without size",
                                                             scene.punctualLights.size())});
     if (stop == StopReason::targetError)
-        ledger.push_back({"stopped-on-estimate", fmt::format("the error estimate reached {}", settings.targetError)});
+        ledger.push_back(
+            {"stopped-on-estimate", fmt::format("the error estimate reached {}", settings.targetError)});
     if (tallies.cutPaths > 0)
         ledger.push_back({"cut-paths", fmt::format("{} paths ended by --max-bounces, mean throughput {:.4g}",
                                                    tallies.cutPaths, tallies.cutThroughput)});
     if (tallies.droppedSamples > 0)
-        ledger.push_back({"dropped-samples", fmt::format("{} samples were not finite", tallies.droppedSamples)});
+        ledger.push_back(
+            {"dropped-samples", fmt::format("{} samples were not finite", tallies.droppedSamples)});
     if (tallies.saturatedSums > 0)
-        ledger.push_back({"saturated-sums", fmt::format("{} sums left the film's range", tallies.saturatedSums)});
+        ledger.push_back(
+            {"saturated-sums", fmt::format("{} sums left the film's range", tallies.saturatedSums)});
     if (!scene.ignoredExtensions.empty())
         ledger.push_back({"ignored-extensions", fmt::format("{}", fmt::join(scene.ignoredExtensions, ", "))});
     return ledger;

@@ -49,13 +49,15 @@ constexpr EstimatorSettings roulette() {
 constexpr std::array<Preset, 6> kPresets{{
     {"naive", "--sampler independent --hemisphere uniform --nee off --roulette off",
      "Kajiya's estimator as it stands: random directions until light is hit", naive()},
-    {"cosine", "as naive, with --hemisphere cosine", "importance sampling of the cosine: grazing directions count less",
-     cosine()},
-    {"nee", "as cosine, with --nee on --mis off", "next-event estimation: light is sampled directly, and only so", nee()},
+    {"cosine", "as naive, with --hemisphere cosine",
+     "importance sampling of the cosine: grazing directions count less", cosine()},
+    {"nee", "as cosine, with --nee on --mis off",
+     "next-event estimation: light is sampled directly, and only so", nee()},
     {"mis", "as nee, with --mis power", "light and BSDF samples combined by Veach's power heuristic", mis()},
-    {"roulette", "as mis, with --roulette throughput", "paths that carry little are ended at random, without bias",
-     roulette()},
-    {"reference", "all defaults: as roulette, with --sampler sobol", "the best this program knows", EstimatorSettings{}},
+    {"roulette", "as mis, with --roulette throughput",
+     "paths that carry little are ended at random, without bias", roulette()},
+    {"reference", "all defaults: as roulette, with --sampler sobol", "the best this program knows",
+     EstimatorSettings{}},
 }};
 
 } // namespace
@@ -65,7 +67,8 @@ std::span<const Preset> presets() {
 }
 
 const Preset& findPreset(std::string_view name) {
-    const auto found = std::find_if(kPresets.begin(), kPresets.end(), [&](const Preset& p) { return p.name == name; });
+    const auto found =
+        std::find_if(kPresets.begin(), kPresets.end(), [&](const Preset& p) { return p.name == name; });
     if (found != kPresets.end())
         return *found;
     std::string known;

@@ -120,8 +120,9 @@ std::vector<ShadowRay> makeShadowRays(std::span<const SurfacePoint> points, cons
     rays.reserve(points.size());
     for (const SurfacePoint& point : points) {
         const glm::vec3 way =
-            table.empty() ? 2.0f * scene.bounds.radius() * cosineDirection(point.ng, random)
-                          : pointOn(triangles[emitters.list[pickFrom(table, random)].triangle], random) - point.p;
+            table.empty()
+                ? 2.0f * scene.bounds.radius() * cosineDirection(point.ng, random)
+                : pointOn(triangles[emitters.list[pickFrom(table, random)].triangle], random) - point.p;
         rays.push_back({point.p, kNoTriangle, kShare * way, kNoTriangle, glm::vec3(0.0f), 0.0f});
     }
     return rays;

@@ -21,8 +21,8 @@ glm::vec3 environmentOf(const Scene& scene, const RenderSettings& settings) {
     return settings.environment.value_or(scene.environment);
 }
 
-// Slots of a wave where the settings leave it open. On lavapipe with two threads, larger waves make the fused kernel no
-// faster, and the wavefront by a tenth at 2^20; --time and Ctrl-C wait for the end of a wave.
+// Slots of a wave where the settings leave it open. On lavapipe with two threads, larger waves make the fused
+// kernel no faster, and the wavefront by a tenth at 2^20; --time and Ctrl-C wait for the end of a wave.
 constexpr uint32_t kWaveSize = 1u << 18;
 
 // Samples that a pixel takes while it is in the wave: they share one update of its film words, and the vector
@@ -90,8 +90,9 @@ Renderer::Renderer(gpu::Device& device, const Scene& scene, const Camera& camera
     : settings_(resolveKernels(settings, device.description().isCpu)),
       scene_(device, scene, environmentOf(scene, settings), settings.estimator.lightSelection),
       film_(device, settings.width, settings.height, settings.bandRows),
-      waves_(makeWaveRenderer(device, settings_.kernels,
-                              {scene_, film_, frameFor(scene, camera, settings_, scene_), settings_.estimator, kernels})) {}
+      waves_(makeWaveRenderer(
+          device, settings_.kernels,
+          {scene_, film_, frameFor(scene, camera, settings_, scene_), settings_.estimator, kernels})) {}
 
 StopReason Renderer::render(const KeepGoing& keepGoing) {
     const auto start = std::chrono::steady_clock::now();

@@ -21,8 +21,9 @@ enum class StopReason { samples, time, targetError, interrupted };
 
 class Renderer {
   public:
-    // Uploads the scene and builds the kernels. The settings must be checked, their width resolved (resolveSize). The device must outlive the renderer. Throws Error where the device's limits are exceeded.
-    // The default kernels are those that the build embedded.
+    // Uploads the scene and builds the kernels. The settings must be checked, their width resolved
+    // (resolveSize). The device must outlive the renderer. Throws Error where the device's limits are
+    // exceeded. The default kernels are those that the build embedded.
     Renderer(gpu::Device& device, const Scene& scene, const Camera& camera, const RenderSettings& settings,
              const KernelSource& kernels = embeddedKernel);
     Renderer(const Renderer&) = delete; // the wavefront refers to the scene and the film
@@ -31,8 +32,8 @@ class Renderer {
     // Asked between waves with the fraction done so far, in [0, 1]; false ends the render early.
     using KeepGoing = std::function<bool(double fraction)>;
 
-    // Takes samples until the settings or `keepGoing` say stop. The film is valid after an early end too: each pixel knows
-    // how many samples it has.
+    // Takes samples until the settings or `keepGoing` say stop. The film is valid after an early end too:
+    // each pixel knows how many samples it has.
     StopReason render(const KeepGoing& keepGoing);
 
     [[nodiscard]] const Film& film() const { return film_; }
@@ -57,8 +58,9 @@ class Renderer {
     bool isOutOfTime_ = false;
 };
 
-// What --target-error is compared with: mean(Var / (mean^2 + 0.01)) over pixels and channels, Var being the variance of a
-// pixel's mean. It estimates relMSE for independent samples; Sobol's are correlated, and for them it is an upper bound.
+// What --target-error is compared with: mean(Var / (mean^2 + 0.01)) over pixels and channels, Var being the
+// variance of a pixel's mean. It estimates relMSE for independent samples; Sobol's are correlated, and for
+// them it is an upper bound.
 [[nodiscard]] double errorEstimate(const Rendering& rendering);
 
 // Width from the camera's aspect ratio where the settings leave it open (16:9 where the camera does too).
@@ -68,6 +70,7 @@ class Renderer {
 [[nodiscard]] RenderSettings resolveKernels(RenderSettings settings, bool isCpu);
 
 // Parameters for the kernels; the vertical field of view is kept whatever the image's aspect ratio.
-[[nodiscard]] FrameParameters makeFrame(const Scene& scene, const Camera& camera, const RenderSettings& settings);
+[[nodiscard]] FrameParameters makeFrame(const Scene& scene, const Camera& camera,
+                                        const RenderSettings& settings);
 
 } // namespace lavalight

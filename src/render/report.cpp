@@ -75,17 +75,18 @@ std::string_view nameOf(StopReason reason) {
 }
 
 Metadata exrMetadata(const RenderReport& report) {
-    Metadata metadata{{"version", std::string(kVersion)},
-                      {"scene", report.scene},
-                      {"camera", report.camera},
-                      {"device", report.device.name},
-                      {"driver", report.device.driver},
-                      {"samples-per-pixel", fmt::format("{:.6g}", static_cast<double>(report.samples) /
-                                                                      (static_cast<double>(report.settings.width) *
-                                                                       report.settings.height))},
-                      {"render-seconds", fmt::format("{:.3f}", report.renderSeconds)},
-                      {"complete", report.stop == StopReason::interrupted ? "no, interrupted" : "yes"},
-                      {"bias-ledger", ledgerText(report.ledger)}};
+    Metadata metadata{
+        {"version", std::string(kVersion)},
+        {"scene", report.scene},
+        {"camera", report.camera},
+        {"device", report.device.name},
+        {"driver", report.device.driver},
+        {"samples-per-pixel",
+         fmt::format("{:.6g}", static_cast<double>(report.samples) /
+                                   (static_cast<double>(report.settings.width) * report.settings.height))},
+        {"render-seconds", fmt::format("{:.3f}", report.renderSeconds)},
+        {"complete", report.stop == StopReason::interrupted ? "no, interrupted" : "yes"},
+        {"bias-ledger", ledgerText(report.ledger)}};
     for (const auto& [key, value] : describe(report.settings))
         metadata.emplace_back("option:" + key, value);
     return metadata;

@@ -10,7 +10,8 @@ uint32_t featuresOf(const Material& material) {
     const bool isGlass = material.metallic < 1.0f && material.transmission > 0.0f;
     uint32_t features = (isSpecular ? kFeatureSpecular : 0u) | (isGlass ? kFeatureGlass : 0u);
     if (features != 0)
-        features |= material.roughness * material.roughness < kSmoothAlpha ? kFeatureSmoothLobes : kFeatureRoughLobes;
+        features |=
+            material.roughness * material.roughness < kSmoothAlpha ? kFeatureSmoothLobes : kFeatureRoughLobes;
     return features;
 }
 

@@ -20,30 +20,38 @@ constexpr std::array<SettingName<Roulette>, 5> kRoulettes{{{"throughput", Roulet
                                                            {"max-albedo", Roulette::maxAlbedo}}};
 constexpr std::array<SettingName<Kernels>, 3> kKernels{
     {{"auto", Kernels::automatic}, {"fused", Kernels::fused}, {"wavefront", Kernels::wavefront}}};
-constexpr std::array<SettingName<Fresnel>, 2> kFresnels{{{"exact", Fresnel::exact}, {"schlick", Fresnel::schlick}}};
+constexpr std::array<SettingName<Fresnel>, 2> kFresnels{
+    {{"exact", Fresnel::exact}, {"schlick", Fresnel::schlick}}};
 
 } // namespace
 
-template <> std::span<const SettingName<Sampler>> settingNames() {
+template <>
+std::span<const SettingName<Sampler>> settingNames() {
     return kSamplers;
 }
-template <> std::span<const SettingName<Hemisphere>> settingNames() {
+template <>
+std::span<const SettingName<Hemisphere>> settingNames() {
     return kHemispheres;
 }
-template <> std::span<const SettingName<LightSelection>> settingNames() {
+template <>
+std::span<const SettingName<LightSelection>> settingNames() {
     return kLightSelections;
 }
-template <> std::span<const SettingName<Mis>> settingNames() {
+template <>
+std::span<const SettingName<Mis>> settingNames() {
     return kMisKinds;
 }
-template <> std::span<const SettingName<Roulette>> settingNames() {
+template <>
+std::span<const SettingName<Roulette>> settingNames() {
     return kRoulettes;
 }
-template <> std::span<const SettingName<Fresnel>> settingNames() {
+template <>
+std::span<const SettingName<Fresnel>> settingNames() {
     return kFresnels;
 }
 
-template <> std::span<const SettingName<Kernels>> settingNames() {
+template <>
+std::span<const SettingName<Kernels>> settingNames() {
     return kKernels;
 }
 

@@ -9,23 +9,33 @@
 
 namespace lavalight {
 
-template <typename Value> struct SettingName {
+template <typename Value>
+struct SettingName {
     std::string_view name;
     Value value;
 };
 
 // All values of a setting with their names, the default first. One specialisation per enumeration.
-template <typename Value> [[nodiscard]] std::span<const SettingName<Value>> settingNames();
+template <typename Value>
+[[nodiscard]] std::span<const SettingName<Value>> settingNames();
 
-template <> std::span<const SettingName<Sampler>> settingNames();
-template <> std::span<const SettingName<Hemisphere>> settingNames();
-template <> std::span<const SettingName<LightSelection>> settingNames();
-template <> std::span<const SettingName<Mis>> settingNames();
-template <> std::span<const SettingName<Roulette>> settingNames();
-template <> std::span<const SettingName<Fresnel>> settingNames();
-template <> std::span<const SettingName<Kernels>> settingNames();
+template <>
+std::span<const SettingName<Sampler>> settingNames();
+template <>
+std::span<const SettingName<Hemisphere>> settingNames();
+template <>
+std::span<const SettingName<LightSelection>> settingNames();
+template <>
+std::span<const SettingName<Mis>> settingNames();
+template <>
+std::span<const SettingName<Roulette>> settingNames();
+template <>
+std::span<const SettingName<Fresnel>> settingNames();
+template <>
+std::span<const SettingName<Kernels>> settingNames();
 
-template <typename Value> [[nodiscard]] std::string_view nameOf(Value value) {
+template <typename Value>
+[[nodiscard]] std::string_view nameOf(Value value) {
     const auto names = settingNames<Value>();
     return std::find_if(names.begin(), names.end(), [&](const auto& n) { return n.value == value; })->name;
 }

@@ -17,7 +17,8 @@ void requireRange(const char* option, double value, double least, double most) {
 
 // Survival is known before the direction is drawn, as --mis-survival needs it.
 bool isKnownBeforeSampling(Roulette roulette) {
-    return roulette == Roulette::constant || roulette == Roulette::meanAlbedo || roulette == Roulette::maxAlbedo;
+    return roulette == Roulette::constant || roulette == Roulette::meanAlbedo ||
+           roulette == Roulette::maxAlbedo;
 }
 
 void checkEstimator(const EstimatorSettings& e) {
@@ -25,15 +26,17 @@ void checkEstimator(const EstimatorSettings& e) {
     requireRange("--max-bounces", e.maxBounces, 0, kMaxBounceLimit);
     requireRange("--roulette-start", e.rouletteStart, 1, most32);
     if (!(e.rouletteProbability > 0.0f && e.rouletteProbability <= 1.0f))
-        throw UsageError(fmt::format("--roulette-probability: {} is outside the range above 0 to 1: a path that never "
-                                     "survives cannot stand for the others",
-                                     e.rouletteProbability));
+        throw UsageError(
+            fmt::format("--roulette-probability: {} is outside the range above 0 to 1: a path that never "
+                        "survives cannot stand for the others",
+                        e.rouletteProbability));
     if (!(e.clampIndirect > 0.0f))
         throw UsageError(fmt::format("--clamp-indirect: {} is not above 0", e.clampIndirect));
     if (e.misSurvival && !isKnownBeforeSampling(e.roulette))
-        throw UsageError(fmt::format("--mis-survival on needs a --roulette of constant, mean-albedo or max-albedo, whose "
-                                     "probability does not depend on the direction drawn; it is {}",
-                                     nameOf(e.roulette)));
+        throw UsageError(
+            fmt::format("--mis-survival on needs a --roulette of constant, mean-albedo or max-albedo, whose "
+                        "probability does not depend on the direction drawn; it is {}",
+                        nameOf(e.roulette)));
 }
 
 } // namespace
@@ -52,7 +55,9 @@ void checkSettings(const RenderSettings& settings) {
 std::vector<std::pair<std::string, std::string>> describe(const RenderSettings& settings) {
     const EstimatorSettings& e = settings.estimator;
     std::vector<std::pair<std::string, std::string>> pairs;
-    const auto add = [&](const char* option, auto value) { pairs.emplace_back(option, fmt::format("{}", value)); };
+    const auto add = [&](const char* option, auto value) {
+        pairs.emplace_back(option, fmt::format("{}", value));
+    };
     add("kernels", nameOf(settings.kernels));
     add("size", fmt::format("{}x{}", settings.width, settings.height));
     add("spp", settings.samples);
@@ -73,7 +78,8 @@ std::vector<std::pair<std::string, std::string>> describe(const RenderSettings& 
     add("clamp-indirect", std::isinf(e.clampIndirect) ? "off" : fmt::format("{}", e.clampIndirect));
     add("seed", e.seed);
     if (settings.environment)
-        add("env", fmt::format("{},{},{}", settings.environment->x, settings.environment->y, settings.environment->z));
+        add("env", fmt::format("{},{},{}", settings.environment->x, settings.environment->y,
+                               settings.environment->z));
     return pairs;
 }
 

@@ -29,7 +29,8 @@ enum class Roulette : uint32_t {
 };
 enum class Fresnel : uint32_t { exact = kFresnelExact, schlick = kFresnelSchlick };
 
-// How kernels cut up the work of a path. Their code is the same; bits may differ where a driver rounds otherwise.
+// How kernels cut up the work of a path. Their code is the same; bits may differ where a driver rounds
+// otherwise.
 enum class Kernels {
     automatic, // by the kind of device
     fused,     // one kernel for whole paths
@@ -46,10 +47,11 @@ struct EstimatorSettings {
     Roulette roulette = Roulette::throughput;
     uint32_t rouletteStart = 3;       // first vertex where a path may die; the camera's first hit is vertex 1
     float rouletteProbability = 0.5f; // of survival, for Roulette::constant
-    bool misSurvival = false;         // the BSDF pdf of MIS weights is multiplied by the probability of survival
+    bool misSurvival = false; // the BSDF pdf of MIS weights is multiplied by the probability of survival
     Fresnel fresnel = Fresnel::exact; // of glass; opaque layers use Schlick's as glTF prescribes
     uint32_t maxBounces = 64;         // scattering vertices; 0 shows emission only
-    float clampIndirect = std::numeric_limits<float>::infinity(); // biased: largest channel of an indirect contribution
+    float clampIndirect =
+        std::numeric_limits<float>::infinity(); // biased: largest channel of an indirect contribution
     uint32_t seed = 0;
 };
 
@@ -58,13 +60,13 @@ struct RenderSettings {
     EstimatorSettings estimator;
     uint32_t width = 0; // pixels; 0: by the camera's aspect ratio from the height
     uint32_t height = 512;
-    uint32_t samples = 64;     // per pixel, at most
-    uint32_t firstSample = 0;  // samples [firstSample, firstSample + samples)
-    double seconds = 0.0;      // stop after this time; 0: no limit
-    double targetError = 0.0;  // stop when the estimated relMSE is below this; 0: no target
+    uint32_t samples = 64;    // per pixel, at most
+    uint32_t firstSample = 0; // samples [firstSample, firstSample + samples)
+    double seconds = 0.0;     // stop after this time; 0: no limit
+    double targetError = 0.0; // stop when the estimated relMSE is below this; 0: no target
     Kernels kernels = Kernels::automatic;
     uint32_t waveSize = 0; // path slots of a wave; 0: by the kernels
-    uint32_t bandRows = 0;     // rows of a film band; 0: as many as a storage buffer of the device holds
+    uint32_t bandRows = 0; // rows of a film band; 0: as many as a storage buffer of the device holds
     std::optional<glm::vec3> environment; // constant radiance that replaces the scene's
 };
 
@@ -73,7 +75,8 @@ constexpr uint32_t kMaxBounceLimit = 1024; // counters of every bounce are kept 
 // Throws UsageError naming the option and its range, or the options that contradict each other.
 void checkSettings(const RenderSettings& settings);
 
-// Option name (without dashes) and value of everything that decides the image's bits, for the EXR header and report.
+// Option name (without dashes) and value of everything that decides the image's bits, for the EXR header and
+// report.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> describe(const RenderSettings& settings);
 
 } // namespace lavalight

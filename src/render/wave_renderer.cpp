@@ -18,7 +18,8 @@ gpu::Buffer uploadFrame(gpu::Device& device, FrameParameters parameters, const F
 
 } // namespace
 
-std::unique_ptr<WaveRenderer> makeWaveRenderer(gpu::Device& device, Kernels kernels, const WaveInputs& inputs) {
+std::unique_ptr<WaveRenderer> makeWaveRenderer(gpu::Device& device, Kernels kernels,
+                                               const WaveInputs& inputs) {
     assert(kernels != Kernels::automatic);
     if (kernels == Kernels::fused)
         return std::make_unique<FusedPaths>(device, inputs);

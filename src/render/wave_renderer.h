@@ -1,4 +1,5 @@
-// What renders waves of paths: the interface of the two ways there are, render/wavefront.h and render/fused_paths.h.
+// What renders waves of paths: the interface of the two ways there are, render/wavefront.h and
+// render/fused_paths.h.
 #pragma once
 
 #include <cstddef>
@@ -32,8 +33,8 @@ class WaveRenderer {
     WaveRenderer(const WaveRenderer&) = delete; // bound kernels refer to members
     WaveRenderer& operator=(const WaveRenderer&) = delete;
 
-    // Takes range.sampleCount samples for each of range.pixelCount pixels of band `band` and adds them to the film.
-    // pixelCount * sampleCount must not exceed the wave size.
+    // Takes range.sampleCount samples for each of range.pixelCount pixels of band `band` and adds them to the
+    // film. pixelCount * sampleCount must not exceed the wave size.
     virtual void renderWave(size_t band, WaveRange range) = 0;
 
     [[nodiscard]] const RayCounts& rays() const { return rays_; }
@@ -46,8 +47,8 @@ class WaveRenderer {
     RayCounts rays_;
 };
 
-// What decides how waves are rendered, beside the kernels. The scene and the film must outlive the renderer; `frame` says
-// what scene, camera and settings decide (the size of a band is filled in).
+// What decides how waves are rendered, beside the kernels. The scene and the film must outlive the renderer;
+// `frame` says what scene, camera and settings decide (the size of a band is filled in).
 struct WaveInputs {
     const GpuScene& scene;
     const Film& film;
@@ -57,11 +58,13 @@ struct WaveInputs {
 };
 
 // Settings::kernels must not be automatic. The device must outlive the renderer.
-[[nodiscard]] std::unique_ptr<WaveRenderer> makeWaveRenderer(gpu::Device& device, Kernels kernels, const WaveInputs& inputs);
+[[nodiscard]] std::unique_ptr<WaveRenderer> makeWaveRenderer(gpu::Device& device, Kernels kernels,
+                                                             const WaveInputs& inputs);
 
 // A band of the film with its frame parameters, added to `state`, the buffers that all bands share.
 struct BandResources {
-    BandResources(gpu::Device& device, const WaveInputs& inputs, const FilmBand& band, gpu::ResourceTable state);
+    BandResources(gpu::Device& device, const WaveInputs& inputs, const FilmBand& band,
+                  gpu::ResourceTable state);
     gpu::Buffer frame;
     gpu::ResourceTable table;
 };

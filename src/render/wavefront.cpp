@@ -6,14 +6,15 @@
 namespace lavalight {
 namespace {
 
-// Bounces recorded before the host looks whether any path is left: a dispatch without work costs some 50 us on lavapipe,
-// a look some 200 us.
+// Bounces recorded before the host looks whether any path is left: a dispatch without work costs some 50 us
+// on lavapipe, a look some 200 us.
 constexpr uint32_t kBouncesPerSubmission = 8;
 
 } // namespace
 
 Wavefront::WaveKernels::WaveKernels(const gpu::Device& device, const WaveInputs& inputs)
-    : generate(device, inputs.kernels("generate"), estimatorConstants(inputs.estimator, inputs.scene.features())),
+    : generate(device, inputs.kernels("generate"),
+               estimatorConstants(inputs.estimator, inputs.scene.features())),
       extend(device, inputs.kernels("extend")),
       shade(device, inputs.kernels("shade"), estimatorConstants(inputs.estimator, inputs.scene.features())),
       prepare(device, inputs.kernels("prepare")), connect(device, inputs.kernels("connect")),
@@ -25,7 +26,8 @@ Wavefront::State::State(gpu::Device& device, uint32_t slots, uint32_t maxBounces
       paths(device, "paths", slots * sizeof(Path), gpu::BufferUse::storage),
       shadowRays(device, "shadow rays", slots * sizeof(ShadowRay), gpu::BufferUse::storage),
       queues(device, "queues", 3 * slots * sizeof(uint32_t), gpu::BufferUse::storage),
-      counters(device, "bounce counters", (maxBounces + 2) * sizeof(BounceCounters), gpu::BufferUse::readback),
+      counters(device, "bounce counters", (maxBounces + 2) * sizeof(BounceCounters),
+               gpu::BufferUse::readback),
       dispatchSizes(device, "dispatch sizes", 2 * sizeof(DispatchSize), gpu::BufferUse::storage) {}
 
 gpu::ResourceTable Wavefront::State::table() const {
@@ -40,8 +42,8 @@ gpu::ResourceTable Wavefront::State::table() const {
     return resources;
 }
 
-Wavefront::Band::Band(gpu::Device& device, const WaveKernels& kernels, const State& state, const WaveInputs& inputs,
-                      const FilmBand& film)
+Wavefront::Band::Band(gpu::Device& device, const WaveKernels& kernels, const State& state,
+                      const WaveInputs& inputs, const FilmBand& film)
     : resources(device, inputs, film, state.table()), generate(device, kernels.generate, resources.table),
       extend(device, kernels.extend, resources.table), shade(device, kernels.shade, resources.table),
       prepare(device, kernels.prepare, resources.table), connect(device, kernels.connect, resources.table),

@@ -65,9 +65,9 @@ Scene loadScene(const std::string& nameOrPath) {
     }
     std::error_code code;
     if (!std::filesystem::exists(nameOrPath, code))
-        throw Error(fmt::format("cannot read {}: no such file, and no built-in scene of that name (built in: {})",
-                                nameOrPath.empty() ? "a scene without a name" : nameOrPath,
-                                fmt::join(builtinNames(), ", ")));
+        throw Error(fmt::format(
+            "cannot read {}: no such file, and no built-in scene of that name (built in: {})",
+            nameOrPath.empty() ? "a scene without a name" : nameOrPath, fmt::join(builtinNames(), ", ")));
     return importGltf(nameOrPath);
 }
 

@@ -152,7 +152,9 @@ TEST_F(Render, ReportIsJsonThatAgreesWithTheImage) {
 TEST_F(Render, KernelsAreChosenByNameOrByTheKindOfDevice) {
     const auto rendered = [&](const std::string& kernels) {
         // Not whole workgroups, and paths too long for one dispatch of the fused kernel.
-        expectSuccess({"-o", kernels + ".exr", "--report", "a.json", "--kernels", kernels, "--roulette", "off"}, "17x11");
+        expectSuccess(
+            {"-o", kernels + ".exr", "--report", "a.json", "--kernels", kernels, "--roulette", "off"},
+            "17x11");
         return json::parse(readFile(folder_ / "a.json"));
     };
     const json wavefront = rendered("wavefront");

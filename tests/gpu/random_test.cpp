@@ -32,7 +32,8 @@ class RandomTest : public DeviceTest {
   protected:
     [[nodiscard]] std::vector<Words> words(const std::vector<Key>& keys) {
         const gpu::SpecialisationConstant independent{CONSTANT_SAMPLER, kSamplerIndependent};
-        return KernelRunner(device(), test_kernels::find("random_test"), {}, {&independent, 1}).map<Words>(keys);
+        return KernelRunner(device(), test_kernels::find("random_test"), {}, {&independent, 1})
+            .map<Words>(keys);
     }
 };
 

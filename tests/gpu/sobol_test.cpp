@@ -30,7 +30,8 @@ class SobolTest : public DeviceTest {
             .generate<glm::uvec4>(count, Push{pixel, 1});
     }
     // Mean squared error of the mean of f over `count` samples of many pixels.
-    template <typename Function> double meanSquaredError(uint32_t count, double exact, const Function& f) {
+    template <typename Function>
+    double meanSquaredError(uint32_t count, double exact, const Function& f) {
         constexpr uint32_t pixels = 64;
         double sum = 0.0;
         for (uint32_t pixel = 0; pixel < pixels; ++pixel) {
@@ -43,8 +44,8 @@ class SobolTest : public DeviceTest {
     }
 };
 
-// Every way to cut the square into 2^m equal boxes with sides that are powers of two: one point in each box, for each
-// aligned block of 2^m samples.
+// Every way to cut the square into 2^m equal boxes with sides that are powers of two: one point in each box,
+// for each aligned block of 2^m samples.
 TEST_F(SobolTest, EveryAlignedBlockOfSamplesIsANet) {
     constexpr uint32_t m = 8;
     constexpr uint32_t block = 1u << m;
@@ -57,7 +58,8 @@ TEST_F(SobolTest, EveryAlignedBlockOfSamplesIsANet) {
                 const uint64_t y = uint64_t{all[i].y} << (m - xBits) >> 32;
                 ++counts[(x << (m - xBits)) + y];
             }
-            EXPECT_EQ(counts, std::vector<uint32_t>(block, 1)) << "block at " << first << ", x bits " << xBits;
+            EXPECT_EQ(counts, std::vector<uint32_t>(block, 1))
+                << "block at " << first << ", x bits " << xBits;
         }
 }
 

@@ -49,7 +49,8 @@ TEST_F(Determinism, WaveSizeChangesNoBit) {
 TEST_F(Determinism, FusedKernelsAndTheWavefrontGiveTheSameBits) {
     for (const char* name : {"cornell-glass", "veach-mis", "many-lights"}) {
         const Scene scene = loadScene(name);
-        RenderSettings settings = imageSettings(40, 36, 130); // lanes of several slots, the last ones not full
+        RenderSettings settings =
+            imageSettings(40, 36, 130); // lanes of several slots, the last ones not full
         settings.estimator.roulette = Roulette::off;
         settings.kernels = Kernels::fused;
         const RenderResult fused = renderScene(device(), scene, settings);
@@ -63,12 +64,14 @@ TEST_F(Determinism, FusedKernelsAndTheWavefrontGiveTheSameBits) {
 
 // What a scene has not is left out of its kernels: with everything left in, the bits are the same.
 TEST_F(Determinism, KernelsSpecialisedToTheSceneGiveTheBitsOfGeneralOnes) {
-    for (const char* name : {"cornell-box", "cornell-glass", "veach-mis", "glass-caustic", "furnace", "large-small-light"}) {
+    for (const char* name :
+         {"cornell-box", "cornell-glass", "veach-mis", "glass-caustic", "furnace", "large-small-light"}) {
         const Scene scene = loadScene(name);
         const RenderSettings settings = imageSettings(40, 36, 4);
         const RenderResult special = renderScene(device(), scene, settings);
         const RenderResult general = renderScene(device(), scene, settings, [](std::string_view kernel) {
-            return patchedKernel(kernel, {"lib/features.glsl", "(kFeatures & feature) != 0u", "feature != 0u"});
+            return patchedKernel(kernel,
+                                 {"lib/features.glsl", "(kFeatures & feature) != 0u", "feature != 0u"});
         });
         EXPECT_EQ(special.filmWords, general.filmWords) << name;
     }

@@ -10,9 +10,9 @@
 #include "gpu/device.h"
 #include "image/image.h"
 #include "image/statistics.h"
+#include "render/estimator_kernels.h"
 #include "render/film.h"
 #include "render/settings.h"
-#include "render/estimator_kernels.h"
 #include "scene/scene.h"
 
 namespace lavalight::test {

@@ -1,4 +1,5 @@
-// The device that device tests share: opened once per process, with the validation layer and its synchronisation checks.
+// The device that device tests share: opened once per process, with the validation layer and its
+// synchronisation checks.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
-// What a scene is said to have: a feature that it has and that is not reported would be missing from its image.
+// What a scene is said to have: a feature that it has and that is not reported would be missing from its
+// image.
 #include <gtest/gtest.h>
 
 #include "render/scene_features.h"

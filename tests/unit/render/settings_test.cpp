@@ -62,8 +62,10 @@ TEST(Settings, WhatIsOutOfRangeIsRefusedByItsOptionsName) {
     expectRefusal("--wave-size", [](RenderSettings& s) { s.waveSize = 4'000'001; });
     expectRefusal("--max-bounces", [](RenderSettings& s) { s.estimator.maxBounces = kMaxBounceLimit + 1; });
     expectRefusal("--roulette-start", [](RenderSettings& s) { s.estimator.rouletteStart = 0; });
-    expectRefusal("--roulette-probability", [](RenderSettings& s) { s.estimator.rouletteProbability = 0.0f; });
-    expectRefusal("--roulette-probability", [](RenderSettings& s) { s.estimator.rouletteProbability = 1.01f; });
+    expectRefusal("--roulette-probability",
+                  [](RenderSettings& s) { s.estimator.rouletteProbability = 0.0f; });
+    expectRefusal("--roulette-probability",
+                  [](RenderSettings& s) { s.estimator.rouletteProbability = 1.01f; });
     expectRefusal("--time", [](RenderSettings& s) { s.seconds = -1.0; });
     expectRefusal("--target-error", [](RenderSettings& s) { s.targetError = -0.1; });
 }
