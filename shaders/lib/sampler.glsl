@@ -6,8 +6,7 @@
 // Named dimensions of a vertex, padded: each has a sequence of its own. New ones go to the end: the numbers are part of
 // what a seed means. 2-D and 1-D ones must not share a number.
 const uint kDimensionPixel = 0u;       // 2-D: position within the pixel (camera vertex)
-const uint kDimensionLightPoint = 1u;  // 2-D: point or direction of the light
-const uint kDimensionLightPick = 2u;   // 1-D: which light
+const uint kDimensionLight = 1u;       // 2-D: which light, and a point or direction of it
 const uint kDimensionBsdf = 3u;        // 2-D: direction
 const uint kDimensionLobe = 4u;        // 1-D: which lobe
 const uint kDimensionRoulette = 5u;    // 1-D: survival

@@ -25,14 +25,26 @@ float lightPmf(uint light) {
     return fetchLight(light).pmf;
 }
 
+struct LightPick {
+    uint light;
+    float place; // what is left of the random number: uniform in [0, 1) again
+};
+
+const float kLargestPlace = 1.0 - 5.9604644775390625e-8; // 1 - 2^-24
+
 // Alias method: a column, then the light in it. Walker 1977; Vose 1991. The high word of bits * count is the column, the
-// low word the place within it: one 32-bit number serves both, uneven by a relative count / 2^32.
-uint pickLight(uint bits, uint lightCount) {
+// low word the place within it: one 32-bit number serves both, uneven by a relative count / 2^32. The place is then
+// stretched over the part of the column that was met, so that one Sobol pair stratifies lights and points on them
+// together: a quad's two triangles are one light to it.
+LightPick pickLight(uint bits, uint lightCount) {
     uint column;
-    uint place;
-    umulExtended(bits, lightCount, column, place);
+    uint word;
+    umulExtended(bits, lightCount, column, word);
     const LightRecord record = fetchLight(column);
-    return bitsToUnit(place) < record.probability ? column : record.alias;
+    const bool stays = bitsToUnit(word) < record.probability; // exact: both are multiples of 2^-24
+    const float place = float(word) * 2.3283064365386963e-10; // 2^-32; rounding may carry it just out of its part
+    const float stretched = stays ? place / record.probability : (place - record.probability) / (1.0 - record.probability);
+    return LightPick(stays ? column : record.alias, clamp(stretched, 0.0, kLargestPlace));
 }
 
 // A constant environment is sampled by the cosine around the receiver's normal, which leaves a diffuse surface no variance
@@ -55,8 +67,10 @@ LightSample sampleEnvironment(Receiver receiver, vec2 u, vec3 radiance, float re
 }
 
 // Next-event estimation; frame.lightCount > 0. The pdf includes the pmf of the pick.
-LightSample sampleLight(FrameParameters frame, Receiver receiver, uint pickBits, vec2 u) {
-    const LightRecord record = fetchLight(pickLight(pickBits, frame.lightCount));
+LightSample sampleLight(FrameParameters frame, Receiver receiver, uvec2 bits) {
+    const LightPick pick = pickLight(bits.x, frame.lightCount);
+    const vec2 u = vec2(pick.place, bitsToUnit(bits.y));
+    const LightRecord record = fetchLight(pick.light);
     const uint kind = record.source >> kLightKindShift;
     const uint index = record.source & kLightIndexMask;
     const float reach = 2.0 * (frame.sceneRadius + distance(receiver.p, frame.sceneCenter));

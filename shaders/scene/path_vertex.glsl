@@ -52,8 +52,8 @@ bool isSameSide(Vertex v, vec3 wi, float localZ) {
 
 // Picks a light and prepares its shadow ray; false: nothing to be had.
 bool nextEvent(Vertex v, vec3 throughput, out ShadowRay shadow) {
-    const LightSample light = sampleLight(frame, Receiver(v.surface.p, v.surface.n), sampleBits1D(v.key, kDimensionLightPick),
-                                          sample2D(v.key, kDimensionLightPoint));
+    const LightSample light =
+        sampleLight(frame, Receiver(v.surface.p, v.surface.n), sampleBits2D(v.key, kDimensionLight));
     const vec3 wi = toLocal(v.basis, light.wi);
     if (!isSameSide(v, light.wi, wi.z))
         return false;

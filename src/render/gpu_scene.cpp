@@ -139,6 +139,13 @@ GpuScene::Prepared GpuScene::prepare(const Scene& scene, const Lights& lights) {
 
 namespace {
 
+// Lambert surfaces never look into the table, whose kernel takes a quarter of a second to compile and run.
+gpu::Buffer albedoTableFor(gpu::Device& device, uint32_t features) {
+    if ((features & (kFeatureSpecular | kFeatureGlass)) != 0)
+        return makeAlbedoTable(device);
+    return {device, "albedo table", 0, gpu::BufferUse::texels};
+}
+
 template <typename T>
 gpu::Buffer uploadTexels(gpu::Device& device, const char* name, const std::vector<T>& data) {
     static_assert(sizeof(T) % 16 == 0);
@@ -162,7 +169,7 @@ GpuScene::GpuScene(gpu::Device& device, const Prepared& prepared)
       materials_(uploadTexels(device, "materials", prepared.materials)),
       lights_(uploadTexels(device, "lights", prepared.lights)),
       punctuals_(uploadTexels(device, "punctual lights", prepared.punctuals)),
-      albedoTable_(makeAlbedoTable(device)) {}
+      albedoTable_(albedoTableFor(device, prepared.features)) {}
 
 void GpuScene::addTo(gpu::ResourceTable& resources) const {
     resources.set("bvhNodes", nodes_);

@@ -23,8 +23,8 @@ void main() {
     if (i >= answers.length())
         return;
     const SampleKey key = SampleKey(5u, i, 0u, 1u);
-    const uint bits = sampleBits1D(key, kDimensionLightPick);
-    const uint light = pickLight(bits, frame.lightCount);
-    const LightSample drawn = sampleLight(frame, Receiver(frame.cameraPosition, vec3(0, 0, 1)), bits, sample2D(key, kDimensionLightPoint));
+    const uvec2 bits = sampleBits2D(key, kDimensionLight);
+    const uint light = pickLight(bits.x, frame.lightCount).light;
+    const LightSample drawn = sampleLight(frame, Receiver(frame.cameraPosition, vec3(0, 0, 1)), bits);
     answers[i] = Answer(drawn.wi, drawn.pdf, drawn.radiance, light, lightPmf(light), drawn.isDelta ? 1.0 : 0.0);
 }
