@@ -2,7 +2,9 @@
 #include "lib/features.glsl"
 #include "lib/onb.glsl"
 #include "lib/random.glsl"
+#include "scene/light_tree.glsl"
 #include "scene/punctual_light.glsl"
+#include "scene/receiver.glsl"
 #include "scene/triangle_light.glsl"
 #include "shared/bindings.h"
 #include "shared/scene.h"
@@ -14,37 +16,50 @@ LightRecord fetchLight(uint index) {
     return LightRecord(uintBitsToFloat(l.x), l.y, uintBitsToFloat(l.z), l.w);
 }
 
-// The point that light is sampled for.
-struct Receiver {
-    vec3 p;
-    vec3 n; // shading normal on the side of wo
-};
+bool isInLightTree(FrameParameters frame, uint light) {
+    return sceneHas(kFeatureLightTree) && light < frame.firstLightColumn;
+}
 
 // Probability of picking this light, for sampling and for MIS at BSDF hits alike.
-float lightPmf(uint light) {
-    return fetchLight(light).pmf;
+float lightPmf(FrameParameters frame, Receiver receiver, uint light) {
+    const LightRecord record = fetchLight(light);
+    return isInLightTree(frame, light) ? record.pmf * lightTreePmf(receiver, record.alias) : record.pmf;
 }
 
 struct LightPick {
     uint light;
+    float pmf;   // 0: no light brings anything
     float place; // what is left of the random number: uniform in [0, 1) again
 };
 
 const float kLargestPlace = 1.0 - 5.9604644775390625e-8; // 1 - 2^-24
+const float kLowBitsToUnit = 2.3283064365386963e-10;     // 2^-32
 
-// Alias method: a column, then the light in it. Walker 1977; Vose 1991. The high word of bits * count is the column, the
-// low word the place within it: one 32-bit number serves both, uneven by a relative count / 2^32. The place is then
-// stretched over the part of the column that was met, so that one Sobol pair stratifies lights and points on them
-// together: a quad's two triangles are one light to it.
-LightPick pickLight(uint bits, uint lightCount) {
+// Alias method: a column, then the light in it. Walker 1977; Vose 1991. The high word of bits * columns is the column, the
+// low word the place within it: one 32-bit number serves both, uneven by a relative columns / 2^32. The place is then
+// stretched over the part of the column that was met, and so on down the light tree, so that one Sobol pair stratifies
+// lights and points on them together: a quad's two triangles are one light to it. The tree decides by 24 bits of the
+// place, and the other 8 make up for what stretching uses up.
+LightPick pickLight(FrameParameters frame, Receiver receiver, uint bits) {
     uint column;
     uint word;
-    umulExtended(bits, lightCount, column, word);
+    umulExtended(bits, frame.lightColumns, column, word);
+    column += frame.firstLightColumn;
     const LightRecord record = fetchLight(column);
-    const bool stays = bitsToUnit(word) < record.probability; // exact: both are multiples of 2^-24
-    const float place = float(word) * 2.3283064365386963e-10; // 2^-32; rounding may carry it just out of its part
-    const float stretched = stays ? place / record.probability : (place - record.probability) / (1.0 - record.probability);
-    return LightPick(stays ? column : record.alias, clamp(stretched, 0.0, kLargestPlace));
+    const float place = bitsToUnit(word);
+    const bool stays = place < record.probability; // exact: both are multiples of 2^-24
+    const float share = stays ? record.probability : 1.0 - record.probability;
+    const float stretched = (stays ? place : place - record.probability) / share;
+    const LightRecord picked = stays ? record : fetchLight(record.alias);
+    LightPick pick = LightPick(stays ? column : record.alias, picked.pmf, stretched);
+    float rest = kLowBitsToUnit * float(word & 0xffu) / share;
+    if (sceneHas(kFeatureLightTree) && picked.source >> kLightKindShift == kLightTree) {
+        const LightTreePick inTree = pickFromLightTree(receiver, stretched);
+        pick = LightPick(inTree.light, picked.pmf * inTree.pmf, inTree.place);
+        rest /= inTree.pmf;
+    }
+    pick.place = clamp(pick.place + rest, 0.0, kLargestPlace);
+    return pick;
 }
 
 // A constant environment is sampled by the cosine around the receiver's normal, which leaves a diffuse surface no variance
@@ -66,13 +81,13 @@ LightSample sampleEnvironment(Receiver receiver, vec2 u, vec3 radiance, float re
     return light;
 }
 
-// Next-event estimation; frame.lightCount > 0. The pdf includes the pmf of the pick.
+// Next-event estimation; frame.lightColumns > 0. The pdf includes the pmf of the pick.
 LightSample sampleLight(FrameParameters frame, Receiver receiver, uvec2 bits) {
-    const LightPick pick = pickLight(bits.x, frame.lightCount);
+    const LightPick pick = pickLight(frame, receiver, bits.x);
     const vec2 u = vec2(pick.place, bitsToUnit(bits.y));
-    const LightRecord record = fetchLight(pick.light);
-    const uint kind = record.source >> kLightKindShift;
-    const uint index = record.source & kLightIndexMask;
+    const uint source = fetchLight(pick.light).source;
+    const uint kind = source >> kLightKindShift;
+    const uint index = source & kLightIndexMask;
     const float reach = 2.0 * (frame.sceneRadius + distance(receiver.p, frame.sceneCenter));
     LightSample light = kNoLightSample;
     if (sceneHas(kFeatureTriangleLights) && kind == kLightTriangle)
@@ -81,6 +96,6 @@ LightSample sampleLight(FrameParameters frame, Receiver receiver, uvec2 bits) {
         light = samplePunctualLight(receiver.p, index, reach);
     if (sceneHas(kFeatureEnvironment) && kind == kLightEnvironment)
         light = sampleEnvironment(receiver, u, frame.environment, reach);
-    light.pdf *= record.pmf;
+    light.pdf *= pick.pmf;
     return light;
 }

@@ -14,6 +14,7 @@ struct Vertex {
     Surface bsdf;
     Basis basis;
     vec3 wo;        // local
+    uint receiver;  // packed, for light sampling
     float survival; // probability by albedo, known before a direction is drawn
     SampleKey key;
 };
@@ -35,14 +36,17 @@ float foundLightWeight(float bsdfPdf, float lightPdf) {
 float hitLightPdf(Interaction surface, Hit hit, Ray ray) {
     if (!sceneHas(kFeatureTriangleLights) || surface.emitter == kNoEmitter || kNee == 0u)
         return 0.0;
-    return lightPmf(surface.emitter) * triangleLightPdf(loadLeafTriangle(hit.leafTriangle), ray.origin, surface.area,
-                                                        hit.t * hit.t, dot(surface.ng, ray.direction));
+    const Receiver receiver = unpackReceiver(ray.origin, ray.receiver);
+    return lightPmf(frame, receiver, surface.emitter) *
+           triangleLightPdf(loadLeafTriangle(hit.leafTriangle), ray.origin, surface.area, hit.t * hit.t,
+                            dot(surface.ng, ray.direction));
 }
 
 float missLightPdf(Ray ray) {
     if (!sceneHas(kFeatureEnvironment) || frame.environmentLight == kNoLight || kNee == 0u)
         return 0.0;
-    return lightPmf(frame.environmentLight) * environmentPdf(ray.originCosine);
+    const Receiver receiver = unpackReceiver(ray.origin, ray.receiver);
+    return lightPmf(frame, receiver, frame.environmentLight) * environmentPdf(dot(receiver.n, ray.direction));
 }
 
 // n and ng must agree about the side of wi.
@@ -53,7 +57,7 @@ bool isSameSide(Vertex v, vec3 wi, float localZ) {
 // Picks a light and prepares its shadow ray; false: nothing to be had.
 bool nextEvent(Vertex v, vec3 throughput, out ShadowRay shadow) {
     const LightSample light =
-        sampleLight(frame, Receiver(v.surface.p, v.surface.n), sampleBits2D(v.key, kDimensionLight));
+        sampleLight(frame, unpackReceiver(v.surface.p, v.receiver), sampleBits2D(v.key, kDimensionLight));
     const vec3 wi = toLocal(v.basis, light.wi);
     if (!isSameSide(v, light.wi, wi.z))
         return false;
@@ -73,7 +77,7 @@ bool nextRay(Vertex v, inout Path path, out Ray ray) {
     const BsdfSample next =
         sampleBsdf(v.bsdf, v.wo, sample2D(v.key, kDimensionBsdf), sample1D(v.key, kDimensionLobe));
     const vec3 wi = toWorld(v.basis, next.wi);
-    ray = Ray(offsetOrigin(v.surface.p, v.surface.pError, v.surface.ng, wi), v.surface.triangle, wi, next.wi.z);
+    ray = Ray(offsetOrigin(v.surface.p, v.surface.pError, v.surface.ng, wi), v.surface.triangle, wi, v.receiver);
     path.throughput *= next.weight;
     path.bsdfPdf = next.pdf * (kMisSurvival != 0u ? v.survival : 1.0);
     path.etaScale *= next.eta * next.eta;
@@ -99,6 +103,7 @@ Vertex makeVertex(Interaction surface, MaterialRecord material, vec3 wo, SampleK
     v.bsdf = surfaceOf(material, surface.isFront);
     v.basis = makeBasis(surface.n);
     v.wo = toLocal(v.basis, wo);
+    v.receiver = sceneHas(kFeatureEnvironment | kFeatureLightTree) ? packReceiver(surface.n, hasGlass(v.bsdf)) : 0u;
     v.key = key;
     v.survival = key.vertex < frame.rouletteStart
                      ? 1.0
@@ -140,7 +145,7 @@ NextRays scatter(Hit hit, Ray ray, uint slot, uint bounce, inout Path path) {
     const Vertex vertex = makeVertex(surface, material, -ray.direction, keyOfSlot(slot, bounce + 1u));
 
     // ---- Next-event estimation ----
-    if (kNee != 0u && frame.lightCount > 0u && hasNonDelta(vertex.bsdf))
+    if (kNee != 0u && frame.lightColumns > 0u && hasNonDelta(vertex.bsdf))
         next.wantsShadowRay = nextEvent(vertex, path.throughput, next.shadow);
 
     // ---- BSDF sampling and roulette ----

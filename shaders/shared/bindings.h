@@ -10,6 +10,7 @@
 #define BINDING_LIGHTS 4
 #define BINDING_ALBEDO_TABLE 5
 #define BINDING_PUNCTUALS 6
+#define BINDING_LIGHT_TREE 7
 
 // Wave state, one element per path slot.
 #define BINDING_FRAME 8

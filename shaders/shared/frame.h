@@ -16,7 +16,7 @@ struct FrameParameters {
     vec3 cameraForward; // unit length
     uint seed;
     vec3 environment; // constant radiance
-    uint lightCount;
+    uint lightColumns; // of the alias table of lights; 0: there are no lights
     vec3 sceneCenter; // of the sphere around everything, where light from infinity starts
     float sceneRadius;
     uint environmentLight; // index among the lights, or kNoLight
@@ -26,7 +26,7 @@ struct FrameParameters {
     float clampIndirect; // largest channel of what a path may bring from beyond its first vertex; infinite: no clamp
     uint bandPixels;     // pixels of the film at hand
     uint waveSize;       // slots
-    uint unused;
+    uint firstLightColumn; // among the lights; those before it are in the light tree
 };
 
 // Specialisation constants: the estimator settings that pick code (lib/estimator.glsl).

@@ -35,11 +35,13 @@ struct MaterialRecord {
 SHARED_CONST uint kMaterialDoubleSided = 1u;
 SHARED_CONST uint kMaterialSolid = 2u; // the boundary of a refracting body; else a transmissive surface is a thin wall
 
-// One texel a light: its column of the alias table, and what it is.
+// One texel a light: its column of the alias table, and what it is. Lights of the tree have no column of their own; the
+// tree as a whole has one, after those of all other lights.
 struct LightRecord {
     float probability; // of staying in this column
-    uint alias;        // the other light of this column
-    float pmf;         // with which the whole table picks this light
+    uint alias;        // the other light of this column; of a light in the tree: bit i is set where its path leads into
+                       // the second child, i levels below the root
+    float pmf;         // with which the whole table picks this light, or the tree that it is in
     uint source;       // kind in the top two bits; below: leaf triangle, or index of the punctual light
 };
 SHARED_CONST uint kNoLight = 0xffffffffu;
@@ -48,6 +50,21 @@ SHARED_CONST uint kLightIndexMask = 0x3fffffffu;
 SHARED_CONST uint kLightTriangle = 0u;
 SHARED_CONST uint kLightPunctual = 1u;
 SHARED_CONST uint kLightEnvironment = 2u;
+SHARED_CONST uint kLightTree = 3u; // no light itself
+
+// Two texels a node of the light tree: what its lights may send where. Children are neighbours; the root is node 0.
+struct LightTreeRecord {
+    vec3 center; // of a sphere around all lights
+    float radius;
+    uint axis;       // of the cone of normals, octahedral
+    uint cosines;    // of the cone's half angle, and of the angle around each normal within which light leaves: snorm 2x16
+    float intensity; // W/sr along the normals, of all lights together
+    uint reference;  // flags, and the light, or the first child
+};
+SHARED_CONST uint kLightTreeTexels = 2u;
+SHARED_CONST uint kLightTreeLeafBit = 0x80000000u;
+SHARED_CONST uint kLightTreeTwoSidedBit = 0x40000000u; // light leaves against the normals too
+SHARED_CONST uint kLightTreeIndexMask = 0x3fffffffu;
 
 // Three texels a light of KHR_lights_punctual.
 struct PunctualRecord {
@@ -75,7 +92,8 @@ SHARED_CONST uint kFeatureShadingNormals = 16u;
 SHARED_CONST uint kFeatureTriangleLights = 32u;
 SHARED_CONST uint kFeaturePunctualLights = 64u;
 SHARED_CONST uint kFeatureEnvironment = 128u;
-SHARED_CONST uint kAllFeatures = 255u;
+SHARED_CONST uint kFeatureLightTree = 256u;
+SHARED_CONST uint kAllFeatures = 511u;
 
 // Directional albedo of the GGX lobe, tabulated over (sqrt(cosine), roughness); a row ends with its cosine-weighted average.
 SHARED_CONST uint kAlbedoCosines = 64u;

@@ -13,7 +13,7 @@ struct Ray {
     vec3 origin;
     uint fromTriangle; // id of the triangle that it starts on, or kNoTriangle
     vec3 direction;
-    float originCosine; // between the direction and the shading normal where it starts
+    uint receiver; // packed (scene/receiver.glsl): what light sampling knew of the surface where it starts
 };
 SHARED_CONST uint kNoTriangle = 0xffffffffu;
 

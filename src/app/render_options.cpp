@@ -153,7 +153,9 @@ void RenderOptions::declareEstimator(CLI::App& parser) {
              "Directions of diffuse surfaces: by the cosine, or all alike");
     addSwitch(parser, "--nee", e.nextEventEstimation,
               "Next-event estimation; off: light is found only by hitting it");
-    addNamed(parser, "--light-selection", e.lightSelection, "Which light NEE picks: by power, or all alike");
+    addNamed(parser, "--light-selection", e.lightSelection,
+             "Which light NEE picks: by power, all alike, or by what each brings to the point (auto: where "
+             "there are several)");
     addNamed(parser, "--mis", e.mis, "Weights of light and BSDF samples");
     addSwitch(parser, "--mis-survival", e.misSurvival, "MIS weights count the probability of survival");
     addNamed(parser, "--fresnel", e.fresnel, "Reflectance of glass: exact, or Schlick's approximation");

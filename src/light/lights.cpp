@@ -30,10 +30,16 @@ void requireFinite(double power, const std::string& light) {
         throw Error(fmt::format("cannot sample {}: its power is {} W", light, power));
 }
 
+bool isAtInfinity(const PunctualLight& light) {
+    return light.kind == PunctualKind::directional;
+}
+
 // Fills `punctuals` with what has power, and appends the powers.
-void addPunctuals(const Scene& scene, Lights& lights) {
+void addPunctuals(const Scene& scene, bool atInfinity, Lights& lights) {
     for (size_t i = 0; i < scene.punctualLights.size(); ++i) {
         const PunctualLight& light = scene.punctualLights[i];
+        if (isAtInfinity(light) != atInfinity)
+            continue;
         const double power = powerOf(light, scene.bounds);
         requireFinite(power, fmt::format("light {} '{}'", i, light.name));
         if (power <= 0.0)
@@ -41,6 +47,32 @@ void addPunctuals(const Scene& scene, Lights& lights) {
         lights.punctuals.push_back(static_cast<uint32_t>(i));
         lights.powers.push_back(power);
     }
+}
+
+// Over all lights that are somewhere.
+LightTree treeOf(const Scene& scene, const Lights& lights) {
+    std::vector<LightBounds> bounds = boundsOf(scene, lights.emitters);
+    for (const uint32_t index : lights.punctuals)
+        if (const PunctualLight& light = scene.punctualLights[index]; !isAtInfinity(light))
+            bounds.push_back(boundsOf(light));
+    return buildLightTree(bounds);
+}
+
+// MIS finds a constant environment by BSDF rays as well as by NEE, which samples the cosine, too: where a
+// light is to be found beside it, samples for it are nearly lost. Measured on dense-30000 (a quad and the
+// sky), relMSE * time beside picking by power: 0.24 with a share of 1/2, 0.12 with 1/4, 0.08 with 1/8, 0.06
+// with 1/20.
+constexpr double kWeightOfFoundEnvironment = 1.0 / 16.0;
+
+std::vector<double> columnWeights(const Lights& lights, bool bsdfFindsEnvironment) {
+    if (lights.selection == LightSelection::power)
+        return lights.powers;
+    std::vector<double> weights(lights.powers.size() - lights.firstColumn, 1.0);
+    if (lights.selection == LightSelection::tree && lights.environment && bsdfFindsEnvironment)
+        weights.back() = kWeightOfFoundEnvironment;
+    if (!lights.tree.nodes.empty())
+        weights.push_back(1.0);
+    return weights;
 }
 
 } // namespace
@@ -65,22 +97,34 @@ double environmentPower(const glm::vec3& radiance, const Bounds& bounds) {
     return pi * area * meanOf(radiance);
 }
 
-Lights collectLights(const Scene& scene, const glm::vec3& environment, LightSelection selection) {
+LightSelection resolveLightSelection(LightSelection selection, size_t localLights, size_t allLights) {
+    if (selection != LightSelection::automatic)
+        return selection;
+    const bool isChoice = localLights > 2 || (localLights > 0 && allLights > localLights);
+    return isChoice ? LightSelection::tree : LightSelection::power;
+}
+
+Lights collectLights(const Scene& scene, const glm::vec3& environment, LightSelection selection,
+                     bool bsdfFindsEnvironment) {
     Lights lights;
     lights.emitters = findEmitters(scene);
     for (const Emitter& emitter : lights.emitters.list)
         lights.powers.push_back(emitter.power);
-    addPunctuals(scene, lights);
+    addPunctuals(scene, false, lights);
+    const size_t atInfinity = lights.powers.size();
+    addPunctuals(scene, true, lights);
     const double power = environmentPower(environment, scene.bounds);
     requireFinite(power, "the environment");
     if (power > 0.0) {
         lights.environment = static_cast<uint32_t>(lights.powers.size());
         lights.powers.push_back(power);
     }
-    std::vector<double> weights = lights.powers;
-    if (selection == LightSelection::uniform)
-        std::fill(weights.begin(), weights.end(), 1.0);
-    lights.table = buildAliasTable(weights);
+    lights.selection = resolveLightSelection(selection, atInfinity, lights.powers.size());
+    if (lights.selection == LightSelection::tree) {
+        lights.tree = treeOf(scene, lights);
+        lights.firstColumn = static_cast<uint32_t>(atInfinity);
+    }
+    lights.table = buildAliasTable(columnWeights(lights, bsdfFindsEnvironment));
     return lights;
 }
 

@@ -9,29 +9,44 @@
 
 #include "light/alias_table.h"
 #include "light/emitters.h"
+#include "light/light_tree.h"
 #include "scene/scene.h"
 
 namespace lavalight {
 
 enum class LightSelection : uint32_t {
-    power,  // a light is picked with a probability proportional to its power
-    uniform // every light alike
+    automatic, // resolveLightSelection() says which
+    power,     // a light is picked with a probability proportional to its power
+    uniform,   // every light alike
+    tree // by what it may bring to the shading point; all of the tree as often as each light at infinity
 };
 
-// Lights are numbered emitters first, then punctual lights, then the environment. Lights without power are
-// left out.
+// Lights are numbered emitters first, then point lights and spots, directional lights, the environment.
+// Lights without power are left out.
 struct Lights {
+    LightSelection selection = LightSelection::power; // as resolved
     Emitters emitters;
-    std::vector<uint32_t> punctuals;     // indices into Scene::punctualLights
+    std::vector<uint32_t> punctuals;     // indices into Scene::punctualLights, in that order
     std::optional<uint32_t> environment; // number of the environment light
     std::vector<double> powers;          // W, per light
-    std::vector<AliasEntry> table;       // per light; its pmf serves sampling and MIS alike
+    LightTree tree;           // over the lights before firstColumn; empty but for LightSelection::tree
+    uint32_t firstColumn = 0; // the first light of `table`
+    // Per light from firstColumn on, and then one more for the tree, if there is one; its pmf serves sampling
+    // and MIS alike.
+    std::vector<AliasEntry> table;
 };
 
-// `environment`: constant radiance from all sides. Throws Error, naming the light, for a power that is not
-// finite.
-[[nodiscard]] Lights collectLights(const Scene& scene, const glm::vec3& environment,
-                                   LightSelection selection);
+// Of LightSelection::automatic: the tree where there is more to choose from than the two halves of a quad. On
+// scenes of many lights, of lights and sky, or of lights at different distances it takes 0.06 to 0.6 of the
+// time to equal error; in a box with one quad, 1.1.
+[[nodiscard]] LightSelection resolveLightSelection(LightSelection selection, size_t localLights,
+                                                   size_t allLights);
+
+// `environment`: constant radiance from all sides; with `bsdfFindsEnvironment`, which is what MIS does,
+// LightSelection::tree picks it less often than others. Throws Error, naming the light, for a power that is
+// not finite.
+[[nodiscard]] Lights collectLights(const Scene& scene, const glm::vec3& environment, LightSelection selection,
+                                   bool bsdfFindsEnvironment = true);
 
 // W, mean of the channels. Directional lights and the environment shine through the sphere around the scene.
 [[nodiscard]] double powerOf(const PunctualLight& light, const Bounds& bounds);

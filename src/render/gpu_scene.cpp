@@ -1,10 +1,10 @@
 #include "render/gpu_scene.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "accel/triangle.h"
 #include "render/albedo_table.h"
+#include "render/gpu_lights.h"
 #include "render/octahedral.h"
 #include "render/scene_features.h"
 #include "shared/scene.h"
@@ -65,49 +65,6 @@ std::vector<MaterialRecord> packMaterials(const Scene& scene) {
     return packed;
 }
 
-// What light number i is, in the encoding of LightRecord::source; emitters by the first leaf triangle that
-// shows them.
-std::vector<uint32_t> lightSources(const Lights& lights, const Bvh& bvh) {
-    std::vector<uint32_t> sources(lights.emitters.list.size());
-    for (size_t leaf = bvh.leafTriangles.size(); leaf-- > 0;) {
-        const uint32_t emitter = lights.emitters.emitterOfTriangle[bvh.leafTriangles[leaf]];
-        if (emitter != kNoEmitter)
-            sources[emitter] = kLightTriangle << kLightKindShift | static_cast<uint32_t>(leaf);
-    }
-    for (uint32_t i = 0; i < lights.punctuals.size(); ++i)
-        sources.push_back(kLightPunctual << kLightKindShift | i);
-    if (lights.environment)
-        sources.push_back(kLightEnvironment << kLightKindShift);
-    return sources;
-}
-
-std::vector<LightRecord> packLights(const Lights& lights, const Bvh& bvh) {
-    const std::vector<uint32_t> sources = lightSources(lights, bvh);
-    std::vector<LightRecord> packed;
-    for (size_t i = 0; i < sources.size(); ++i)
-        packed.push_back(
-            {lights.table[i].probability, lights.table[i].alias, lights.table[i].pmf, sources[i]});
-    return packed;
-}
-
-// Cone scale and offset as KHR_lights_punctual defines them, with its guard against equal angles.
-PunctualRecord packPunctual(const PunctualLight& light) {
-    const float inner = std::cos(light.innerConeAngle);
-    const float outer = std::cos(light.outerConeAngle);
-    const float scale = 1.0f / std::max(0.001f, inner - outer);
-    const uint32_t kind = light.kind == PunctualKind::point  ? kPunctualPoint
-                          : light.kind == PunctualKind::spot ? kPunctualSpot
-                                                             : kPunctualDirectional;
-    return {light.position, kind, light.direction, scale, light.intensity, -outer * scale};
-}
-
-std::vector<PunctualRecord> packPunctuals(const Scene& scene, const Lights& lights) {
-    std::vector<PunctualRecord> packed;
-    for (const uint32_t index : lights.punctuals)
-        packed.push_back(packPunctual(scene.punctualLights[index]));
-    return packed;
-}
-
 } // namespace
 
 // Everything in the layout of the device, before any of it is uploaded.
@@ -118,6 +75,9 @@ struct GpuScene::Prepared {
     std::vector<MaterialRecord> materials;
     std::vector<LightRecord> lights;
     std::vector<PunctualRecord> punctuals;
+    std::vector<LightTreeRecord> lightTree;
+    LightSelection lightSelection;
+    LightColumns lightColumns;
     uint32_t environmentLight;
     uint32_t features;
 };
@@ -132,6 +92,9 @@ GpuScene::Prepared GpuScene::prepare(const Scene& scene, const Lights& lights) {
     prepared.materials = packMaterials(scene);
     prepared.lights = packLights(lights, prepared.bvh);
     prepared.punctuals = packPunctuals(scene, lights);
+    prepared.lightTree = packLightTree(lights.tree, scene.bounds.radius());
+    prepared.lightSelection = lights.selection;
+    prepared.lightColumns = {lights.firstColumn, static_cast<uint32_t>(lights.table.size())};
     prepared.environmentLight = lights.environment.value_or(kNoLight);
     prepared.features = sceneFeatures(scene, lights);
     return prepared;
@@ -157,11 +120,11 @@ gpu::Buffer uploadTexels(gpu::Device& device, const char* name, const std::vecto
 } // namespace
 
 GpuScene::GpuScene(gpu::Device& device, const Scene& scene, const glm::vec3& environment,
-                   LightSelection selection)
-    : GpuScene(device, prepare(scene, collectLights(scene, environment, selection))) {}
+                   LightSelection selection, bool bsdfFindsEnvironment)
+    : GpuScene(device, prepare(scene, collectLights(scene, environment, selection, bsdfFindsEnvironment))) {}
 
 GpuScene::GpuScene(gpu::Device& device, const Prepared& prepared)
-    : lightCount_(static_cast<uint32_t>(prepared.lights.size())),
+    : lightSelection_(prepared.lightSelection), lightColumns_(prepared.lightColumns),
       environmentLight_(prepared.environmentLight), features_(prepared.features),
       bvhSeconds_(prepared.bvh.buildSeconds), nodes_(uploadTexels(device, "BVH nodes", prepared.bvh.nodes)),
       leafTriangles_(uploadTexels(device, "leaf triangles", prepared.leafTriangles)),
@@ -169,6 +132,7 @@ GpuScene::GpuScene(gpu::Device& device, const Prepared& prepared)
       materials_(uploadTexels(device, "materials", prepared.materials)),
       lights_(uploadTexels(device, "lights", prepared.lights)),
       punctuals_(uploadTexels(device, "punctual lights", prepared.punctuals)),
+      lightTree_(uploadTexels(device, "light tree", prepared.lightTree)),
       albedoTable_(albedoTableFor(device, prepared.features)) {}
 
 void GpuScene::addTo(gpu::ResourceTable& resources) const {
@@ -178,12 +142,13 @@ void GpuScene::addTo(gpu::ResourceTable& resources) const {
     resources.set("materials", materials_);
     resources.set("lights", lights_);
     resources.set("punctuals", punctuals_);
+    resources.set("lightTree", lightTree_);
     resources.set("albedoTable", albedoTable_);
 }
 
 uint64_t GpuScene::bytes() const {
     return nodes_.bytes() + leafTriangles_.bytes() + normals_.bytes() + materials_.bytes() + lights_.bytes() +
-           punctuals_.bytes() + albedoTable_.bytes();
+           punctuals_.bytes() + lightTree_.bytes() + albedoTable_.bytes();
 }
 
 } // namespace lavalight

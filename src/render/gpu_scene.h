@@ -11,17 +11,25 @@
 
 namespace lavalight {
 
+// Of the alias table of lights, as FrameParameters has them.
+struct LightColumns {
+    uint32_t first = 0;
+    uint32_t count = 0;
+};
+
 class GpuScene {
   public:
-    // Builds the BVH and the light table, then uploads. `environment`: constant radiance from all sides.
-    // Throws Error where a limit of the device is exceeded.
+    // Builds the BVH and the light table, then uploads. `environment`, `bsdfFindsEnvironment`: as in
+    // collectLights(). Throws Error where a limit of the device is exceeded.
     GpuScene(gpu::Device& device, const Scene& scene, const glm::vec3& environment = glm::vec3(0.0f),
-             LightSelection selection = LightSelection::power);
+             LightSelection selection = LightSelection::power, bool bsdfFindsEnvironment = true);
 
     // Puts the buffers into `resources` under the names of the kernels.
     void addTo(gpu::ResourceTable& resources) const;
 
-    [[nodiscard]] uint32_t lightCount() const { return lightCount_; }
+    // As resolved.
+    [[nodiscard]] LightSelection lightSelection() const { return lightSelection_; }
+    [[nodiscard]] LightColumns lightColumns() const { return lightColumns_; }
     // Number of the environment among the lights, or kNoLight.
     [[nodiscard]] uint32_t environmentLight() const { return environmentLight_; }
     // kFeature... bits: what kernels for this scene need to know of.
@@ -34,7 +42,8 @@ class GpuScene {
     GpuScene(gpu::Device& device, const Prepared& prepared);
     [[nodiscard]] static Prepared prepare(const Scene& scene, const Lights& lights);
 
-    uint32_t lightCount_;
+    LightSelection lightSelection_;
+    LightColumns lightColumns_;
     uint32_t environmentLight_;
     uint32_t features_;
     double bvhSeconds_;
@@ -44,6 +53,7 @@ class GpuScene {
     gpu::Buffer materials_;
     gpu::Buffer lights_;
     gpu::Buffer punctuals_;
+    gpu::Buffer lightTree_;
     gpu::Buffer albedoTable_;
 };
 

@@ -17,6 +17,7 @@ constexpr EstimatorSettings naive() {
     s.sampler = Sampler::independent;
     s.hemisphere = Hemisphere::uniform;
     s.nextEventEstimation = false;
+    s.lightSelection = LightSelection::power; // once there is NEE
     s.roulette = Roulette::off;
     return s;
 }
@@ -56,8 +57,8 @@ constexpr std::array<Preset, 6> kPresets{{
     {"mis", "as nee, with --mis power", "light and BSDF samples combined by Veach's power heuristic", mis()},
     {"roulette", "as mis, with --roulette throughput",
      "paths that carry little are ended at random, without bias", roulette()},
-    {"reference", "all defaults: as roulette, with --sampler sobol", "the best this program knows",
-     EstimatorSettings{}},
+    {"reference", "all defaults: as roulette, with --sampler sobol --light-selection auto",
+     "the best this program knows", EstimatorSettings{}},
 }};
 
 } // namespace

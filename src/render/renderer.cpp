@@ -12,7 +12,8 @@ namespace {
 FrameParameters frameFor(const Scene& scene, const Camera& camera, const RenderSettings& settings,
                          const GpuScene& gpuScene) {
     FrameParameters frame = makeFrame(scene, camera, settings);
-    frame.lightCount = gpuScene.lightCount();
+    frame.firstLightColumn = gpuScene.lightColumns().first;
+    frame.lightColumns = gpuScene.lightColumns().count;
     frame.environmentLight = gpuScene.environmentLight();
     return frame;
 }
@@ -88,11 +89,14 @@ FrameParameters makeFrame(const Scene& scene, const Camera& camera, const Render
 Renderer::Renderer(gpu::Device& device, const Scene& scene, const Camera& camera,
                    const RenderSettings& settings, const KernelSource& kernels)
     : settings_(resolveKernels(settings, device.description().isCpu)),
-      scene_(device, scene, environmentOf(scene, settings), settings.estimator.lightSelection),
+      scene_(device, scene, environmentOf(scene, settings), settings.estimator.lightSelection,
+             settings.estimator.mis != Mis::off),
       film_(device, settings.width, settings.height, settings.bandRows),
       waves_(makeWaveRenderer(
           device, settings_.kernels,
-          {scene_, film_, frameFor(scene, camera, settings_, scene_), settings_.estimator, kernels})) {}
+          {scene_, film_, frameFor(scene, camera, settings_, scene_), settings_.estimator, kernels})) {
+    settings_.estimator.lightSelection = scene_.lightSelection();
+}
 
 StopReason Renderer::render(const KeepGoing& keepGoing) {
     const auto start = std::chrono::steady_clock::now();

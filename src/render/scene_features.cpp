@@ -26,6 +26,7 @@ uint32_t sceneFeatures(const Scene& scene, const Lights& lights) {
     features |= lights.emitters.list.empty() ? 0u : kFeatureTriangleLights;
     features |= lights.punctuals.empty() ? 0u : kFeaturePunctualLights;
     features |= lights.environment ? kFeatureEnvironment : 0u;
+    features |= lights.tree.nodes.empty() ? 0u : kFeatureLightTree;
     return features;
 }
 

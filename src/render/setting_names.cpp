@@ -9,8 +9,10 @@ constexpr std::array<SettingName<Sampler>, 2> kSamplers{
     {{"sobol", Sampler::sobol}, {"independent", Sampler::independent}}};
 constexpr std::array<SettingName<Hemisphere>, 2> kHemispheres{
     {{"cosine", Hemisphere::cosine}, {"uniform", Hemisphere::uniform}}};
-constexpr std::array<SettingName<LightSelection>, 2> kLightSelections{
-    {{"power", LightSelection::power}, {"uniform", LightSelection::uniform}}};
+constexpr std::array<SettingName<LightSelection>, 4> kLightSelections{{{"auto", LightSelection::automatic},
+                                                                       {"power", LightSelection::power},
+                                                                       {"uniform", LightSelection::uniform},
+                                                                       {"tree", LightSelection::tree}}};
 constexpr std::array<SettingName<Mis>, 3> kMisKinds{
     {{"power", Mis::power}, {"balance", Mis::balance}, {"off", Mis::off}}};
 constexpr std::array<SettingName<Roulette>, 5> kRoulettes{{{"throughput", Roulette::throughput},

@@ -42,7 +42,7 @@ struct EstimatorSettings {
     Sampler sampler = Sampler::sobol;
     Hemisphere hemisphere = Hemisphere::cosine; // how diffuse lobes draw directions
     bool nextEventEstimation = true;            // off: light is found only by hitting it
-    LightSelection lightSelection = LightSelection::power;
+    LightSelection lightSelection = LightSelection::automatic;
     Mis mis = Mis::power; // off, with NEE on: emission found by BSDF rays counts at camera and delta vertices
     Roulette roulette = Roulette::throughput;
     uint32_t rouletteStart = 3;       // first vertex where a path may die; the camera's first hit is vertex 1

@@ -50,7 +50,7 @@ TEST_F(DeepTreeTest, IsSearchedToItsEnd) {
     Random random(2);
     for (int i = 0; i < 100000; ++i) {
         const glm::vec3 towards(1.0f, random.between(-0.3f, 0.3f), random.between(-0.3f, 0.3f));
-        rays.push_back({glm::vec3(0.0f), kNoTriangle, glm::normalize(towards), 0.0f});
+        rays.push_back({glm::vec3(0.0f), kNoTriangle, glm::normalize(towards), 0});
         oracleRays.push_back({rays.back().origin, rays.back().direction});
     }
     const GpuScene gpuScene(device(), scene);

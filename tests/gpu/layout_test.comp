@@ -23,10 +23,11 @@ layout(set = 0, binding = 30, std430) writeonly buffer TriangleNormalsOut { Tria
 layout(set = 0, binding = 31, std430) writeonly buffer MaterialRecordOut { MaterialRecord material[]; };
 layout(set = 0, binding = 32, std430) writeonly buffer LightRecordOut { LightRecord light[]; };
 layout(set = 0, binding = 34, std430) writeonly buffer PunctualRecordOut { PunctualRecord punctual[]; };
+layout(set = 0, binding = 35, std430) writeonly buffer LightTreeRecordOut { LightTreeRecord lightTreeNode[]; };
 layout(set = 0, binding = 33, std430) writeonly buffer TracedHitOut { TracedHit tracedHit[]; };
 
 void main() {
-    ray[1] = Ray(vec3(1, 2, 3), 4u, vec3(5, 6, 7), 8);
+    ray[1] = Ray(vec3(1, 2, 3), 4u, vec3(5, 6, 7), 8u);
     hit[1] = Hit(1, 2u, vec2(3, 4));
     path[1] = Path(vec3(1, 2, 3), 4, vec3(5, 6, 7), 8);
     shadowRay[1] = ShadowRay(vec3(1, 2, 3), 4u, vec3(5, 6, 7), 8u, vec3(9, 10, 11), 12);
@@ -43,4 +44,5 @@ void main() {
     material[1] = fetchMaterial(1u);
     light[1] = fetchLight(1u);
     punctual[1] = fetchPunctual(1u);
+    lightTreeNode[1] = fetchLightTreeNode(1u);
 }

@@ -38,6 +38,7 @@ const LeafTriangle kLeafTriangle{{1, 2, 3}, 4, {5, 6, 7}, 8, {9, 10, 11}, 12};
 const MaterialRecord kMaterialRecord{{1, 2, 3}, 4, {5, 6, 7}, 8, {9, 10, 11}, 12, 13, 14, 15, 0};
 const LightRecord kLightRecord{1, 2, 3, 4};
 const PunctualRecord kPunctualRecord{{1, 2, 3}, 4, {5, 6, 7}, 8, {9, 10, 11}, 12};
+const LightTreeRecord kLightTreeRecord{{1, 2, 3}, 4, 5, 6, 7, 8};
 
 class LayoutTest : public DeviceTest {
   protected:
@@ -89,6 +90,7 @@ TEST_F(LayoutTest, GlslAndCppLayOutEverySharedStructAlike) {
     input("materials", kMaterialRecord);
     input("lights", kLightRecord);
     input("punctuals", kPunctualRecord);
+    input("lightTree", kLightTreeRecord);
     const gpu::Buffer& ray = output<Ray>("RayOut");
     const gpu::Buffer& hit = output<Hit>("HitOut");
     const gpu::Buffer& path = output<Path>("PathOut");
@@ -104,6 +106,7 @@ TEST_F(LayoutTest, GlslAndCppLayOutEverySharedStructAlike) {
     const gpu::Buffer& material = output<MaterialRecord>("MaterialRecordOut");
     const gpu::Buffer& light = output<LightRecord>("LightRecordOut");
     const gpu::Buffer& punctual = output<PunctualRecord>("PunctualRecordOut");
+    const gpu::Buffer& lightTreeNode = output<LightTreeRecord>("LightTreeRecordOut");
     runKernel();
     expectSecond(ray, kRay);
     expectSecond(hit, kHit);
@@ -120,6 +123,7 @@ TEST_F(LayoutTest, GlslAndCppLayOutEverySharedStructAlike) {
     expectSecond(material, kMaterialRecord);
     expectSecond(light, kLightRecord);
     expectSecond(punctual, kPunctualRecord);
+    expectSecond(lightTreeNode, kLightTreeRecord);
 }
 
 } // namespace

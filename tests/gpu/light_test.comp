@@ -8,7 +8,9 @@ struct Answer {
     float pdf;
     vec3 radiance;
     uint light;
-    float pmf;
+    float pmf;          // of the pick
+    float evaluatedPmf; // by what MIS asks
+    float place;
     float isDelta;
 };
 
@@ -24,7 +26,9 @@ void main() {
         return;
     const SampleKey key = SampleKey(5u, i, 0u, 1u);
     const uvec2 bits = sampleBits2D(key, kDimensionLight);
-    const uint light = pickLight(bits.x, frame.lightCount).light;
-    const LightSample drawn = sampleLight(frame, Receiver(frame.cameraPosition, vec3(0, 0, 1)), bits);
-    answers[i] = Answer(drawn.wi, drawn.pdf, drawn.radiance, light, lightPmf(light), drawn.isDelta ? 1.0 : 0.0);
+    const Receiver receiver = Receiver(frame.cameraPosition, frame.cameraUp, frame.isOrthographic != 0u);
+    const LightPick pick = pickLight(frame, receiver, bits.x);
+    const LightSample drawn = sampleLight(frame, receiver, bits);
+    answers[i] = Answer(drawn.wi, drawn.pdf, drawn.radiance, pick.light, pick.pmf, lightPmf(frame, receiver, pick.light),
+                        pick.place, drawn.isDelta ? 1.0 : 0.0);
 }

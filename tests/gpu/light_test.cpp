@@ -25,6 +25,8 @@ struct alignas(16) Answer { // as in the kernel
     glm::vec3 radiance;
     uint32_t light;
     float pmf;
+    float evaluatedPmf;
+    float place;
     float isDelta;
 };
 
@@ -62,6 +64,10 @@ double solidAngle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c)
 struct SampleSums {
     double sum = 0.0;
     double squares = 0.0;
+    void add(const Answer& answer, double cosine = 1.0) {
+        const double value = answer.pdf > 0.0f ? answer.radiance.x * cosine / answer.pdf : 0.0;
+        add(value);
+    }
     void add(double value) {
         sum += value;
         squares += value * value;
@@ -72,14 +78,17 @@ struct SampleSums {
 
 class LightTest : public DeviceTest {
   protected:
-    std::vector<Answer> sample(const Scene& scene, const glm::vec3& from) {
-        const GpuScene gpuScene(device(), scene, scene.environment, LightSelection::power);
+    std::vector<Answer> sample(const Scene& scene, const glm::vec3& from,
+                               LightSelection selection = LightSelection::power) {
+        const GpuScene gpuScene(device(), scene, scene.environment, selection);
         gpu::ResourceTable resources;
         gpuScene.addTo(resources);
         KernelRunner runner(device(), test_kernels::find("light_test"), resources);
         FrameParameters frame{};
         frame.cameraPosition = from;
-        frame.lightCount = gpuScene.lightCount();
+        frame.cameraUp = {0.0f, 0.0f, 1.0f}; // the receiver's normal
+        frame.firstLightColumn = gpuScene.lightColumns().first;
+        frame.lightColumns = gpuScene.lightColumns().count;
         frame.environment = scene.environment;
         frame.sceneCenter = scene.bounds.center();
         frame.sceneRadius = scene.bounds.radius();
@@ -107,6 +116,58 @@ TEST_F(LightTest, LightsArePickedByTheirPmf) {
     EXPECT_GT(chiSquare(counts, byPower).pValue, kLeastPValue);
 }
 
+// Lamps of all kinds around the origin: two-sided panels, point lights, spots, a sun and a sky.
+Scene lampsOfAllKinds() {
+    Scene scene = scatteredLights(60);
+    Random random(7);
+    for (Material& material : scene.materials)
+        material.doubleSided = random.unit() < 0.5f;
+    for (int i = 0; i < 30; ++i) {
+        PunctualLight light;
+        light.kind = i % 3 == 0 ? PunctualKind::spot : PunctualKind::point;
+        light.position = {random.between(-3.0f, 3.0f), random.between(-3.0f, 3.0f),
+                          random.between(-3.0f, 3.0f)};
+        light.direction =
+            glm::normalize(glm::vec3(random.between(-1.0f, 1.0f), random.between(-1.0f, 1.0f), 0.7f));
+        light.innerConeAngle = 0.2f;
+        light.outerConeAngle = random.between(0.3f, 1.5f);
+        scene.punctualLights.push_back(light);
+    }
+    PunctualLight sun;
+    sun.kind = PunctualKind::directional;
+    scene.punctualLights.insert(scene.punctualLights.begin() + 4, sun);
+    scene.environment = glm::vec3(0.1f);
+    scene.bounds = {glm::vec3(-3.0f), glm::vec3(3.0f)};
+    return scene;
+}
+
+TEST_F(LightTest, TheTreePicksLightsByTheirPmfWhichMisEvaluatesToTheBit) {
+    const std::vector<Answer> answers = sample(lampsOfAllKinds(), {0.1f, 0.2f, -0.3f}, LightSelection::tree);
+    std::vector<uint32_t> counts(92);
+    std::vector<double> expected(92, 0.0);
+    std::vector<uint32_t> places(64);
+    uint32_t nothing = 0; // the way led to lights that all bring nothing
+    for (const Answer& answer : answers) {
+        nothing += answer.pmf == 0.0f ? 1 : 0;
+        if (answer.pmf == 0.0f)
+            continue;
+        ASSERT_LT(answer.light, counts.size());
+        ASSERT_EQ(answer.pmf, answer.evaluatedPmf) << "light " << answer.light;
+        ++counts[answer.light];
+        expected[answer.light] = double{answer.pmf} * kSamples;
+        ASSERT_LT(answer.place, 1.0f);
+        ++places[static_cast<size_t>(answer.place * 64.0f)];
+    }
+    const double picked = std::accumulate(expected.begin(), expected.end(), 0.0);
+    EXPECT_LT(nothing, 0.1 * kSamples);
+    counts.push_back(nothing);
+    expected.push_back(kSamples - picked); // lights that were never picked have little
+    EXPECT_GT(chiSquare(counts, expected).pValue, kLeastPValue);
+    EXPECT_GT(chiSquare(places, std::vector<double>(64, (kSamples - nothing) / 64.0)).pValue, kLeastPValue);
+    EXPECT_NEAR(expected[90] / kSamples, 16.0 / 33.0, 1e-6); // the sun; the sky is the last
+    EXPECT_NEAR(expected[91] / kSamples, 1.0 / 33.0, 1e-6);
+}
+
 // The mean of emission / pdf is the integral of radiance over the directions of the light, in closed form.
 TEST_F(LightTest, EmissionOverPdfIntegratesToRadianceTimesSolidAngle) {
     const glm::vec3 from(0.3f, -0.2f, 0.1f);
@@ -117,14 +178,40 @@ TEST_F(LightTest, EmissionOverPdfIntegratesToRadianceTimesSolidAngle) {
             std::abs(solidAngle(glm::dvec3(mesh.positions[0] - from), glm::dvec3(mesh.positions[1] - from),
                                 glm::dvec3(mesh.positions[2] - from))) *
             scene.materials[mesh.material].emission.x;
-    SampleSums sums;
-    for (const Answer& answer : sample(scene, from)) {
-        ASSERT_NEAR(glm::length(answer.wi), 1.0f, 1e-5f);
-        sums.add(answer.radiance.x / answer.pdf);
+    for (const LightSelection selection : {LightSelection::power, LightSelection::tree}) {
+        SampleSums sums;
+        for (const Answer& answer : sample(scene, from, selection)) {
+            ASSERT_NEAR(glm::length(answer.wi), 1.0f, 1e-5f);
+            sums.add(answer);
+        }
+        const double standardError = std::sqrt(sums.variance() / kSamples);
+        EXPECT_NEAR(sums.mean(), expected, 4.0 * standardError);
+        EXPECT_LT(standardError, 0.005 * expected); // the comparison means something
     }
-    const double standardError = std::sqrt(sums.variance() / kSamples);
-    EXPECT_NEAR(sums.mean(), expected, 4.0 * standardError);
-    EXPECT_LT(standardError, 0.005 * expected); // the comparison means something
+}
+
+// Of equal lamps strewn over a plane, those nearby bring nearly all.
+TEST_F(LightTest, UnderManyLampsTheTreeHasAFortiethOfTheVarianceOfPickingByPower) {
+    Random random(5);
+    Scene scene;
+    for (int i = 0; i < 1000; ++i) {
+        PunctualLight light;
+        light.position = {random.between(-30.0f, 30.0f), random.between(-30.0f, 30.0f), 0.5f};
+        scene.punctualLights.push_back(light);
+    }
+    scene.bounds = {glm::vec3(-30.0f), glm::vec3(30.0f)};
+    const auto irradiance = [&](LightSelection selection) {
+        SampleSums sums;
+        for (const Answer& answer : sample(scene, glm::vec3(0.0f), selection))
+            sums.add(answer, std::max(answer.wi.z, 0.0f));
+        return sums;
+    };
+    const SampleSums byPower = irradiance(LightSelection::power);
+    const SampleSums byTree = irradiance(LightSelection::tree);
+    EXPECT_NEAR(byTree.mean(), byPower.mean(),
+                4.0 * std::sqrt((byTree.variance() + byPower.variance()) / kSamples));
+    EXPECT_LT(byTree.variance(), byPower.variance() / 40.0)
+        << "by power: " << byPower.variance() << ", tree: " << byTree.variance();
 }
 
 // Irradiance at a hundredth of the light's width below its middle: by area, the few points right above carry
@@ -146,7 +233,7 @@ TEST_F(LightTest, NearALargeQuadTheVarianceIsATenthOfThatOfAreaSampling) {
     SampleSums ours;
     for (const Answer& answer :
          sample(scene, {0.03f, 0.01f, 0.0f})) // off the diagonal, which has no density of its own
-        ours.add(answer.radiance.x * std::max(answer.wi.z, 0.0f) / answer.pdf);
+        ours.add(answer, std::max(answer.wi.z, 0.0f));
     SampleSums byArea;
     Random random(3);
     for (size_t i = 0; i < kSamples; ++i) {

@@ -40,7 +40,7 @@ std::vector<Ray> raysFrom(Side side, const Placement& placement) {
                                      ? within(0.3f)
                                      : placement.centre() + 3.0f * placement.scale * random.direction();
         if (target != origin)
-            rays.push_back({origin, kNoTriangle, glm::normalize(target - origin), 0.0f});
+            rays.push_back({origin, kNoTriangle, glm::normalize(target - origin), 0});
     }
     return rays;
 }

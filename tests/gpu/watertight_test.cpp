@@ -35,7 +35,7 @@ std::vector<glm::dvec3> verticesAndEdgePoints(const ClosedMesh& mesh) {
 }
 
 Ray rayTowards(const glm::vec3& origin, const glm::dvec3& target) {
-    return {origin, kNoTriangle, glm::vec3(glm::normalize(target - glm::dvec3(origin))), 0.0f};
+    return {origin, kNoTriangle, glm::vec3(glm::normalize(target - glm::dvec3(origin))), 0};
 }
 
 class WatertightTest : public DeviceTest {

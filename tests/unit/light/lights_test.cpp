@@ -132,6 +132,48 @@ TEST(Lights, ArePickedAlikeWhenSelectionIsUniform) {
     EXPECT_GT(lights.powers[1], 1000.0); // powers stay what they are
 }
 
+TEST(Lights, OfATreeHaveOneColumnTogetherBesideThoseAtInfinity) {
+    const Scene scene = sceneOf({punctual(PunctualKind::directional, glm::vec3(1.0f)),
+                                 punctual(PunctualKind::point, glm::vec3(1.0f))});
+    const Lights lights = collectLights(scene, glm::vec3(0.5f), LightSelection::tree);
+    EXPECT_EQ(lights.punctuals,
+              (std::vector<uint32_t>{1, 0})); // the point light, which is in the tree, comes first
+    EXPECT_EQ(lights.tree.paths.size(), 2u);
+    EXPECT_EQ(lights.firstColumn, 2u);
+    ASSERT_EQ(lights.table.size(), 3u); // sun, sky, tree
+    EXPECT_NEAR(lights.table[0].pmf, 16.0 / 33.0, 1e-6);
+    EXPECT_NEAR(lights.table[1].pmf, 1.0 / 33.0, 1e-6);
+    EXPECT_NEAR(lights.table[2].pmf, 16.0 / 33.0, 1e-6);
+}
+
+TEST(Lights, EnvironmentThatBsdfSamplesDoNotFindIsPickedLikeOthers) {
+    const Lights lights = collectLights(sceneOf({}), glm::vec3(0.5f), LightSelection::tree, false);
+    ASSERT_EQ(lights.table.size(), 2u);
+    EXPECT_NEAR(lights.table[0].pmf, 0.5, 1e-6);
+}
+
+TEST(Lights, AllAtInfinityNeedNoTree) {
+    Scene scene;
+    scene.punctualLights = {punctual(PunctualKind::directional, glm::vec3(1.0f))};
+    scene.bounds = kBounds;
+    const Lights lights = collectLights(scene, glm::vec3(0.0f), LightSelection::tree);
+    EXPECT_TRUE(lights.tree.nodes.empty());
+    ASSERT_EQ(lights.table.size(), 1u);
+    EXPECT_EQ(lights.table[0].pmf, 1.0f);
+}
+
+TEST(LightSelection, IsByTheTreeWhereThereIsAChoice) {
+    const auto resolved = [](size_t localLights, size_t allLights) {
+        return resolveLightSelection(LightSelection::automatic, localLights, allLights);
+    };
+    EXPECT_EQ(resolved(0, 0), LightSelection::power);
+    EXPECT_EQ(resolved(0, 2), LightSelection::power);
+    EXPECT_EQ(resolved(2, 2), LightSelection::power);
+    EXPECT_EQ(resolved(1, 2), LightSelection::tree);
+    EXPECT_EQ(resolved(3, 3), LightSelection::tree);
+    EXPECT_EQ(resolveLightSelection(LightSelection::uniform, 3, 3), LightSelection::uniform);
+}
+
 TEST(Lights, WithoutPowerAreLeftOut) {
     for (const LightSelection selection : {LightSelection::power, LightSelection::uniform}) {
         const Scene scene =
