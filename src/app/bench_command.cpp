@@ -71,8 +71,9 @@ OracleRay toOracle(const ShadowRay& ray) {
 class RayBench {
   public:
     RayBench(gpu::Device& device, const Scene& scene, uint32_t repeats)
-        : scene_(&scene), repeats_(repeats), triangles_(sceneTriangles(scene)), gpuScene_(device, scene),
-          tracer_(device, gpuScene_), oracle_(triangles_, EmbreeOracle::Traversal::fast) {}
+        : scene_(&scene), repeats_(repeats), triangles_(sceneTriangles(scene)),
+          gpuScene_(device, packScene(scene)), tracer_(device, gpuScene_),
+          oracle_(triangles_, EmbreeOracle::Traversal::fast) {}
 
     // Camera rays, then rays of the other kinds from where those hit.
     [[nodiscard]] std::vector<Row> run(size_t count) {

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <optional>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -14,6 +15,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/log.h"
+#include "base/process_time.h"
 #include "image/exr.h"
 #include "image/png.h"
 #include "render/renderer.h"
@@ -71,12 +73,22 @@ Scene loadWithWarnings(const std::string& name) {
     return scene;
 }
 
-StopReason renderInterruptibly(Renderer& renderer, const InterruptGuard& guard, bool showProgress) {
+struct RenderRun {
+    StopReason stop = StopReason::samples;
+    std::optional<double>
+        toFirstSamples; // seconds from the start of the process to the end of the first wave
+};
+
+RenderRun renderInterruptibly(Renderer& renderer, const InterruptGuard& guard, bool showProgress) {
     ProgressBar progress(showProgress);
-    return renderer.render([&](double fraction) {
+    RenderRun run;
+    run.stop = renderer.render([&](double fraction) {
+        if (!run.toFirstSamples)
+            run.toFirstSamples = secondsSinceProcessStart();
         progress.show(fraction);
         return !guard.interrupted();
     });
+    return run;
 }
 
 void fillInputs(RenderReport& report, const Scene& scene, const Camera& camera,
@@ -175,7 +187,8 @@ int RenderCommand::run() {
     watch.lap("prepare");
 
     const InterruptGuard guard; // until all files are written: Ctrl-C loses no image
-    report.stop = renderInterruptibly(renderer, guard, !quiet_);
+    const RenderRun run = renderInterruptibly(renderer, guard, !quiet_);
+    report.stop = run.stop;
     report.renderSeconds = watch.lap("render");
     failOnValidation(device);
 
@@ -186,6 +199,10 @@ int RenderCommand::run() {
     writeImages(rendering, report);
     watch.lap("write");
     report.stages = watch.stages();
+    report.stages.emplace_back("prepareBvh", renderer.scene().bvhSeconds());
+    report.stages.emplace_back("prepareKernels", renderer.kernels().seconds());
+    if (run.toFirstSamples)
+        report.stages.emplace_back("processToFirstSamples", *run.toFirstSamples);
     if (!report_.empty())
         writeFileAtomically(report_, reportJson(report));
     if (!quiet_)

@@ -1,6 +1,7 @@
 #include "gpu/buffer.h"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <cstring>
 #include <utility>
@@ -37,6 +38,20 @@ std::vector<vk::MemoryPropertyFlags> memoryWishes(BufferUse use) {
     return {mappable | Memory::eDeviceLocal, Memory::eDeviceLocal, mappable};
 }
 
+// Mesa 22.3's lavapipe takes two properties of a texel buffer for parts of a kernel's key that it means for
+// pictures: whether the size is a power of two, and whether its second byte is 0. All our buffers answer
+// alike, by up to 272 bytes more than asked for: otherwise a kernel is compiled anew for each combination
+// that comes along.
+uint64_t texelBytes(uint64_t bytes) {
+    const uint64_t size = (bytes + kTexelBytes - 1) / kTexelBytes * kTexelBytes;
+    const uint64_t withSecondByte = (size & 0xff00u) == 0 ? size + 0x100u : size;
+    return std::has_single_bit(withSecondByte) ? withSecondByte + kTexelBytes : withSecondByte;
+}
+
+uint64_t allocatedBytes(uint64_t bytes, BufferUse use) {
+    return use == BufferUse::texels ? texelBytes(bytes) : std::max(bytes, kTexelBytes);
+}
+
 void checkLimits(const Device& device, const std::string& name, uint64_t bytes, BufferUse use) {
     const bool isTexels = use == BufferUse::texels;
     const uint64_t most = isTexels ? device.limits().maxTexelBufferElements * kTexelBytes
@@ -52,13 +67,13 @@ void checkLimits(const Device& device, const std::string& name, uint64_t bytes, 
 Buffer::Buffer(Device& device, std::string name, uint64_t bytes, BufferUse use)
     : device_(&device), name_(std::move(name)), bytes_(bytes), use_(use) {
     assert(use != BufferUse::uniform || bytes <= kMostUniformBytes);
-    checkLimits(device, name_, bytes, use);
+    checkLimits(device, name_, allocatedBytes(bytes, use), use);
     allocate();
 }
 
 void Buffer::allocate() {
     const vk::raii::Device& device = device_->handle();
-    const uint64_t size = std::max(bytes_, kTexelBytes);
+    const uint64_t size = allocatedBytes(bytes_, use_);
     buffer_ = checked("create", name_, [&] {
         return vk::raii::Buffer(device, vk::BufferCreateInfo({}, size, usageFlags(use_)));
     });
@@ -81,8 +96,8 @@ void Buffer::allocate() {
         mapped_ = checked("map", name_, [&] { return memory_.mapMemory(0, VK_WHOLE_SIZE); });
     if (use_ == BufferUse::texels)
         view_ = checked("view", name_, [&] {
-            return vk::raii::BufferView(device, vk::BufferViewCreateInfo({}, *buffer_, kTexelFormat, 0,
-                                                                         size / kTexelBytes * kTexelBytes));
+            return vk::raii::BufferView(device,
+                                        vk::BufferViewCreateInfo({}, *buffer_, kTexelFormat, 0, size));
         });
 }
 

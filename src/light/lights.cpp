@@ -113,6 +113,7 @@ Lights collectLights(const Scene& scene, const glm::vec3& environment, LightSele
     addPunctuals(scene, false, lights);
     const size_t atInfinity = lights.powers.size();
     addPunctuals(scene, true, lights);
+    lights.environmentRadiance = environment;
     const double power = environmentPower(environment, scene.bounds);
     requireFinite(power, "the environment");
     if (power > 0.0) {

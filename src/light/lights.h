@@ -28,9 +28,10 @@ struct Lights {
     Emitters emitters;
     std::vector<uint32_t> punctuals;     // indices into Scene::punctualLights, in that order
     std::optional<uint32_t> environment; // number of the environment light
-    std::vector<double> powers;          // W, per light
-    LightTree tree;           // over the lights before firstColumn; empty but for LightSelection::tree
-    uint32_t firstColumn = 0; // the first light of `table`
+    glm::vec3 environmentRadiance{0.0f};
+    std::vector<double> powers; // W, per light
+    LightTree tree;             // over the lights before firstColumn; empty but for LightSelection::tree
+    uint32_t firstColumn = 0;   // the first light of `table`
     // Per light from firstColumn on, and then one more for the tree, if there is one; its pmf serves sampling
     // and MIS alike.
     std::vector<AliasEntry> table;

@@ -1,5 +1,9 @@
 #include "render/estimator_kernels.h"
 
+#include <cassert>
+#include <chrono>
+
+#include "gpu/warm_up.h"
 #include "kernels.h"
 
 namespace lavalight {
@@ -18,6 +22,36 @@ std::vector<gpu::SpecialisationConstant> estimatorConstants(const EstimatorSetti
             {CONSTANT_MIS_SURVIVAL, settings.misSurvival ? 1u : 0u},
             {CONSTANT_FRESNEL, static_cast<uint32_t>(settings.fresnel)},
             {CONSTANT_FEATURES, features}};
+}
+
+namespace {
+
+std::vector<std::string_view> kernelsOf(Kernels kernels) {
+    assert(kernels != Kernels::automatic);
+    if (kernels == Kernels::fused)
+        return {"path", "accumulate"};
+    return {"generate", "extend", "shade", "prepare", "connect", "accumulate"};
+}
+
+} // namespace
+
+EstimatorKernels::EstimatorKernels(gpu::Device& device, Kernels kernels, const EstimatorSettings& settings,
+                                   uint32_t features, const FrameParameters& frame,
+                                   const KernelSource& source) {
+    const auto start = std::chrono::steady_clock::now();
+    const std::vector<gpu::SpecialisationConstant> constants = estimatorConstants(settings, features);
+    std::vector<const gpu::Kernel*> made;
+    for (const std::string_view name : kernelsOf(kernels))
+        made.push_back(
+            &kernels_.try_emplace(std::string(name), device, source(name), constants).first->second);
+    gpu::warmUp(device, made, std::as_bytes(std::span(&frame, 1)));
+    seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+const gpu::Kernel& EstimatorKernels::operator[](std::string_view name) const {
+    const auto found = kernels_.find(name);
+    assert(found != kernels_.end());
+    return found->second;
 }
 
 } // namespace lavalight

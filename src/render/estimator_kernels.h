@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -21,5 +23,22 @@ using KernelSource = std::function<gpu::KernelCode(std::string_view name)>;
 // constants that they do not declare.
 [[nodiscard]] std::vector<gpu::SpecialisationConstant> estimatorConstants(const EstimatorSettings& settings,
                                                                           uint32_t features);
+
+// The kernels of one way to render, specialised, and compiled by the driver. No scene need be uploaded yet.
+class EstimatorKernels {
+  public:
+    // `kernels` must not be automatic; `frame` is what they will be run with.
+    EstimatorKernels(gpu::Device& device, Kernels kernels, const EstimatorSettings& settings,
+                     uint32_t features, const FrameParameters& frame, const KernelSource& source);
+
+    // The kernel must be one of that way.
+    [[nodiscard]] const gpu::Kernel& operator[](std::string_view name) const;
+    // That all of it took.
+    [[nodiscard]] double seconds() const { return seconds_; }
+
+  private:
+    std::map<std::string, gpu::Kernel, std::less<>> kernels_;
+    double seconds_ = 0.0;
+};
 
 } // namespace lavalight

@@ -34,18 +34,16 @@ gpu::ResourceTable FusedPaths::State::table() const {
     return resources;
 }
 
-FusedPaths::Band::Band(gpu::Device& device, const FusedPaths& kernels, const WaveInputs& inputs,
+FusedPaths::Band::Band(gpu::Device& device, const State& state, const WaveInputs& inputs,
                        const FilmBand& film)
-    : resources(device, inputs, film, kernels.state_.table()), path(device, kernels.path_, resources.table),
-      accumulate(device, kernels.accumulate_, resources.table) {}
+    : resources(device, inputs, film, state.table()), path(device, inputs.kernels["path"], resources.table),
+      accumulate(device, inputs.kernels["accumulate"], resources.table) {}
 
 FusedPaths::FusedPaths(gpu::Device& device, const WaveInputs& inputs)
-    : WaveRenderer(device),
-      path_(device, inputs.kernels("path"), estimatorConstants(inputs.estimator, inputs.scene.features())),
-      accumulate_(device, inputs.kernels("accumulate")), state_(device, inputs.frame.waveSize) {
+    : WaveRenderer(device), state_(device, inputs.frame.waveSize) {
     bands_.reserve(inputs.film.bands().size());
     for (const FilmBand& band : inputs.film.bands())
-        bands_.emplace_back(device, *this, inputs, band);
+        bands_.emplace_back(device, state_, inputs, band);
 }
 
 void FusedPaths::renderWave(size_t bandIndex, WaveRange range) {

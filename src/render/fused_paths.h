@@ -22,7 +22,7 @@ class FusedPaths : public WaveRenderer {
     };
     // The kernels bound to one band of the film.
     struct Band {
-        Band(gpu::Device& device, const FusedPaths& kernels, const WaveInputs& inputs, const FilmBand& film);
+        Band(gpu::Device& device, const State& state, const WaveInputs& inputs, const FilmBand& film);
         BandResources resources;
         gpu::BoundKernel path, accumulate;
     };
@@ -30,7 +30,6 @@ class FusedPaths : public WaveRenderer {
     // One dispatch; the number of lanes that want another.
     [[nodiscard]] uint32_t advance(const Band& band, const WaveRange& range, uint32_t lanes);
 
-    gpu::Kernel path_, accumulate_;
     State state_;
     std::vector<Band> bands_;
 };

@@ -3,49 +3,24 @@
 
 #include <cstdint>
 
-#include "accel/bvh.h"
 #include "gpu/buffer.h"
 #include "gpu/kernel.h"
-#include "light/lights.h"
-#include "scene/scene.h"
+#include "render/scene_data.h"
 
 namespace lavalight {
 
-// Of the alias table of lights, as FrameParameters has them.
-struct LightColumns {
-    uint32_t first = 0;
-    uint32_t count = 0;
-};
-
 class GpuScene {
   public:
-    // Builds the BVH and the light table, then uploads. `environment`, `bsdfFindsEnvironment`: as in
-    // collectLights(). Throws Error where a limit of the device is exceeded.
-    GpuScene(gpu::Device& device, const Scene& scene, const glm::vec3& environment = glm::vec3(0.0f),
-             LightSelection selection = LightSelection::power, bool bsdfFindsEnvironment = true);
+    // Uploads. Throws Error where a limit of the device is exceeded.
+    GpuScene(gpu::Device& device, const SceneData& data);
 
     // Puts the buffers into `resources` under the names of the kernels.
     void addTo(gpu::ResourceTable& resources) const;
 
-    // As resolved.
-    [[nodiscard]] LightSelection lightSelection() const { return lightSelection_; }
-    [[nodiscard]] LightColumns lightColumns() const { return lightColumns_; }
-    // Number of the environment among the lights, or kNoLight.
-    [[nodiscard]] uint32_t environmentLight() const { return environmentLight_; }
-    // kFeature... bits: what kernels for this scene need to know of.
-    [[nodiscard]] uint32_t features() const { return features_; }
     [[nodiscard]] double bvhSeconds() const { return bvhSeconds_; }
     [[nodiscard]] uint64_t bytes() const;
 
   private:
-    struct Prepared;
-    GpuScene(gpu::Device& device, const Prepared& prepared);
-    [[nodiscard]] static Prepared prepare(const Scene& scene, const Lights& lights);
-
-    LightSelection lightSelection_;
-    LightColumns lightColumns_;
-    uint32_t environmentLight_;
-    uint32_t features_;
     double bvhSeconds_;
     gpu::Buffer nodes_;
     gpu::Buffer leafTriangles_;

@@ -3,24 +3,14 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <future>
+#include <utility>
 
+#include "render/scene_features.h"
 #include "shared/scene.h"
 
 namespace lavalight {
 namespace {
-
-FrameParameters frameFor(const Scene& scene, const Camera& camera, const RenderSettings& settings,
-                         const GpuScene& gpuScene) {
-    FrameParameters frame = makeFrame(scene, camera, settings);
-    frame.firstLightColumn = gpuScene.lightColumns().first;
-    frame.lightColumns = gpuScene.lightColumns().count;
-    frame.environmentLight = gpuScene.environmentLight();
-    return frame;
-}
-
-glm::vec3 environmentOf(const Scene& scene, const RenderSettings& settings) {
-    return settings.environment.value_or(scene.environment);
-}
 
 // Slots of a wave where the settings leave it open. On lavapipe with two threads, larger waves make the fused
 // kernel no faster, and the wavefront by a tenth at 2^20; --time and Ctrl-C wait for the end of a wave.
@@ -74,7 +64,6 @@ FrameParameters makeFrame(const Scene& scene, const Camera& camera, const Render
     frame.imageWidth = settings.width;
     frame.imageHeight = settings.height;
     frame.seed = settings.estimator.seed;
-    frame.environment = environmentOf(scene, settings);
     frame.environmentLight = kNoLight;
     frame.sceneCenter = scene.bounds.center();
     frame.sceneRadius = scene.bounds.radius();
@@ -86,16 +75,47 @@ FrameParameters makeFrame(const Scene& scene, const Camera& camera, const Render
     return frame;
 }
 
+void setLights(FrameParameters& frame, const Lights& lights) {
+    frame.environment = lights.environmentRadiance;
+    frame.environmentLight = lights.environment.value_or(kNoLight);
+    frame.firstLightColumn = lights.firstColumn;
+    frame.lightColumns = static_cast<uint32_t>(lights.table.size());
+}
+
+// What takes long before a render can start: the BVH is built on the host while the driver compiles the
+// kernels.
+struct Renderer::Setup {
+    FrameParameters frame;
+    EstimatorKernels kernels;
+    SceneData scene;
+    LightSelection lightSelection;
+
+    static Setup make(gpu::Device& device, const Scene& scene, const Camera& camera,
+                      const RenderSettings& settings, const KernelSource& source) {
+        const EstimatorSettings& estimator = settings.estimator;
+        const Lights lights = collectLights(scene, settings.environment.value_or(scene.environment),
+                                            estimator.lightSelection, estimator.mis != Mis::off);
+        std::future<SceneData> packed =
+            std::async(std::launch::async, [&] { return packScene(scene, lights); });
+        FrameParameters frame = makeFrame(scene, camera, settings);
+        setLights(frame, lights);
+        EstimatorKernels kernels(device, settings.kernels, estimator, sceneFeatures(scene, lights), frame,
+                                 source);
+        return {frame, std::move(kernels), packed.get(), lights.selection};
+    }
+};
+
 Renderer::Renderer(gpu::Device& device, const Scene& scene, const Camera& camera,
                    const RenderSettings& settings, const KernelSource& kernels)
-    : settings_(resolveKernels(settings, device.description().isCpu)),
-      scene_(device, scene, environmentOf(scene, settings), settings.estimator.lightSelection,
-             settings.estimator.mis != Mis::off),
+    : Renderer(device, resolveKernels(settings, device.description().isCpu),
+               Setup::make(device, scene, camera, resolveKernels(settings, device.description().isCpu),
+                           kernels)) {}
+
+Renderer::Renderer(gpu::Device& device, const RenderSettings& settings, Setup setup)
+    : settings_(settings), kernels_(std::move(setup.kernels)), scene_(device, setup.scene),
       film_(device, settings.width, settings.height, settings.bandRows),
-      waves_(makeWaveRenderer(
-          device, settings_.kernels,
-          {scene_, film_, frameFor(scene, camera, settings_, scene_), settings_.estimator, kernels})) {
-    settings_.estimator.lightSelection = scene_.lightSelection();
+      waves_(makeWaveRenderer(device, settings_.kernels, {scene_, film_, setup.frame, kernels_})) {
+    settings_.estimator.lightSelection = setup.lightSelection;
 }
 
 StopReason Renderer::render(const KeepGoing& keepGoing) {

@@ -40,6 +40,7 @@ class Renderer {
     [[nodiscard]] Rendering rendering() const { return film_.resolve(); }
     [[nodiscard]] const GpuScene& scene() const { return scene_; }
     [[nodiscard]] const WaveRenderer& waves() const { return *waves_; }
+    [[nodiscard]] const EstimatorKernels& kernels() const { return kernels_; }
     // With everything resolved that was left to the device.
     [[nodiscard]] const RenderSettings& settings() const { return settings_; }
 
@@ -50,7 +51,11 @@ class Renderer {
     [[nodiscard]] uint32_t nextPass(uint32_t done) const;
     [[nodiscard]] bool isTimed() const { return settings_.seconds > 0.0; }
 
+    struct Setup;
+    Renderer(gpu::Device& device, const RenderSettings& settings, Setup setup);
+
     RenderSettings settings_;
+    EstimatorKernels kernels_;
     GpuScene scene_;
     Film film_;
     std::unique_ptr<WaveRenderer> waves_;
@@ -69,8 +74,10 @@ class Renderer {
 // Kernels and wave size where the settings leave them to the device.
 [[nodiscard]] RenderSettings resolveKernels(RenderSettings settings, bool isCpu);
 
-// Parameters for the kernels; the vertical field of view is kept whatever the image's aspect ratio.
+// Parameters for the kernels, but for lights; the vertical field of view is kept whatever the image's aspect
+// ratio.
 [[nodiscard]] FrameParameters makeFrame(const Scene& scene, const Camera& camera,
                                         const RenderSettings& settings);
+void setLights(FrameParameters& frame, const Lights& lights);
 
 } // namespace lavalight

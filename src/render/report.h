@@ -13,7 +13,8 @@
 
 namespace lavalight {
 
-// Wall-clock seconds of the stages, in order.
+// Wall-clock seconds: of the stages, in order; then of parts of "prepare", which run side by side, and from
+// the start of the process to the end of the first wave.
 using StageTimes = std::vector<std::pair<std::string, double>>;
 
 struct RenderReport {

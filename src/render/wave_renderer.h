@@ -47,14 +47,13 @@ class WaveRenderer {
     RayCounts rays_;
 };
 
-// What decides how waves are rendered, beside the kernels. The scene and the film must outlive the renderer;
+// What decides how waves are rendered. Scene, film and kernels must outlive the renderer;
 // `frame` says what scene, camera and settings decide (the size of a band is filled in).
 struct WaveInputs {
     const GpuScene& scene;
     const Film& film;
     const FrameParameters& frame;
-    const EstimatorSettings& estimator;
-    const KernelSource& kernels;
+    const EstimatorKernels& kernels;
 };
 
 // Settings::kernels must not be automatic. The device must outlive the renderer.

@@ -12,14 +12,6 @@ constexpr uint32_t kBouncesPerSubmission = 8;
 
 } // namespace
 
-Wavefront::WaveKernels::WaveKernels(const gpu::Device& device, const WaveInputs& inputs)
-    : generate(device, inputs.kernels("generate"),
-               estimatorConstants(inputs.estimator, inputs.scene.features())),
-      extend(device, inputs.kernels("extend")),
-      shade(device, inputs.kernels("shade"), estimatorConstants(inputs.estimator, inputs.scene.features())),
-      prepare(device, inputs.kernels("prepare")), connect(device, inputs.kernels("connect")),
-      accumulate(device, inputs.kernels("accumulate")) {}
-
 Wavefront::State::State(gpu::Device& device, uint32_t slots, uint32_t maxBounces)
     : rays(device, "rays", slots * sizeof(Ray), gpu::BufferUse::storage),
       hits(device, "hits", slots * sizeof(Hit), gpu::BufferUse::storage),
@@ -42,19 +34,21 @@ gpu::ResourceTable Wavefront::State::table() const {
     return resources;
 }
 
-Wavefront::Band::Band(gpu::Device& device, const WaveKernels& kernels, const State& state,
-                      const WaveInputs& inputs, const FilmBand& film)
-    : resources(device, inputs, film, state.table()), generate(device, kernels.generate, resources.table),
-      extend(device, kernels.extend, resources.table), shade(device, kernels.shade, resources.table),
-      prepare(device, kernels.prepare, resources.table), connect(device, kernels.connect, resources.table),
-      accumulate(device, kernels.accumulate, resources.table) {}
+Wavefront::Band::Band(gpu::Device& device, const State& state, const WaveInputs& inputs, const FilmBand& film)
+    : resources(device, inputs, film, state.table()),
+      generate(device, inputs.kernels["generate"], resources.table),
+      extend(device, inputs.kernels["extend"], resources.table),
+      shade(device, inputs.kernels["shade"], resources.table),
+      prepare(device, inputs.kernels["prepare"], resources.table),
+      connect(device, inputs.kernels["connect"], resources.table),
+      accumulate(device, inputs.kernels["accumulate"], resources.table) {}
 
 Wavefront::Wavefront(gpu::Device& device, const WaveInputs& inputs)
-    : WaveRenderer(device), maxBounces_(inputs.frame.maxBounces), kernels_(device, inputs),
+    : WaveRenderer(device), maxBounces_(inputs.frame.maxBounces),
       state_(device, inputs.frame.waveSize, maxBounces_) {
     bands_.reserve(inputs.film.bands().size());
     for (const FilmBand& band : inputs.film.bands())
-        bands_.emplace_back(device, kernels_, state_, inputs, band);
+        bands_.emplace_back(device, state_, inputs, band);
 }
 
 void Wavefront::renderWave(size_t bandIndex, WaveRange range) {

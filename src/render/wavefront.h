@@ -15,11 +15,6 @@ class Wavefront : public WaveRenderer {
     void renderWave(size_t band, WaveRange range) override;
 
   private:
-    // The kernels of a wave, specialised to estimator and scene.
-    struct WaveKernels {
-        WaveKernels(const gpu::Device& device, const WaveInputs& inputs);
-        gpu::Kernel generate, extend, shade, prepare, connect, accumulate;
-    };
     // One element per slot, but for queues (three of them) and the few words at the end.
     struct State {
         State(gpu::Device& device, uint32_t slots, uint32_t maxBounces);
@@ -28,8 +23,7 @@ class Wavefront : public WaveRenderer {
     };
     // The kernels bound to one band of the film.
     struct Band {
-        Band(gpu::Device& device, const WaveKernels& kernels, const State& state, const WaveInputs& inputs,
-             const FilmBand& film);
+        Band(gpu::Device& device, const State& state, const WaveInputs& inputs, const FilmBand& film);
         BandResources resources;
         gpu::BoundKernel generate, extend, shade, prepare, connect, accumulate;
     };
@@ -38,7 +32,6 @@ class Wavefront : public WaveRenderer {
     void countRays();
 
     uint32_t maxBounces_;
-    WaveKernels kernels_;
     State state_;
     std::vector<Band> bands_;
 };

@@ -139,7 +139,8 @@ TEST_F(Render, ReportIsJsonThatAgreesWithTheImage) {
     EXPECT_GT(report.at("rays").at("indirect"), 0);
     EXPECT_GT(report.at("rays").at("shadow"), 0);
     EXPECT_EQ(report.at("ledger"), json::array());
-    for (const char* stage : {"load", "device", "prepare", "render", "write"})
+    for (const char* stage : {"load", "device", "prepare", "render", "write", "prepareBvh", "prepareKernels",
+                              "processToFirstSamples"})
         EXPECT_GE(report.at("seconds").at(stage), 0.0) << stage;
     EXPECT_GT(report.at("kernels").at("accumulate").at("dispatches"), 0);
     glm::dvec3 mean(0.0);

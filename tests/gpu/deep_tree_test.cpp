@@ -53,7 +53,7 @@ TEST_F(DeepTreeTest, IsSearchedToItsEnd) {
         rays.push_back({glm::vec3(0.0f), kNoTriangle, glm::normalize(towards), 0});
         oracleRays.push_back({rays.back().origin, rays.back().direction});
     }
-    const GpuScene gpuScene(device(), scene);
+    const GpuScene gpuScene(device(), packScene(scene));
     const std::vector<TracedHit> ours = RayTracer(device(), gpuScene).closest(rays);
     const std::vector<OracleHit> theirs =
         EmbreeOracle(triangles, EmbreeOracle::Traversal::robust).closest(oracleRays);

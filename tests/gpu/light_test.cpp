@@ -9,6 +9,7 @@
 
 #include "light/lights.h"
 #include "render/gpu_scene.h"
+#include "render/renderer.h"
 #include "shared/frame.h"
 #include "support/chi_square.h"
 #include "support/random_numbers.h"
@@ -80,16 +81,15 @@ class LightTest : public DeviceTest {
   protected:
     std::vector<Answer> sample(const Scene& scene, const glm::vec3& from,
                                LightSelection selection = LightSelection::power) {
-        const GpuScene gpuScene(device(), scene, scene.environment, selection);
+        const Lights lights = collectLights(scene, scene.environment, selection);
+        const GpuScene gpuScene(device(), packScene(scene, lights));
         gpu::ResourceTable resources;
         gpuScene.addTo(resources);
         KernelRunner runner(device(), test_kernels::find("light_test"), resources);
         FrameParameters frame{};
         frame.cameraPosition = from;
         frame.cameraUp = {0.0f, 0.0f, 1.0f}; // the receiver's normal
-        frame.firstLightColumn = gpuScene.lightColumns().first;
-        frame.lightColumns = gpuScene.lightColumns().count;
-        frame.environment = scene.environment;
+        setLights(frame, lights);
         frame.sceneCenter = scene.bounds.center();
         frame.sceneRadius = scene.bounds.radius();
         return runner.generate<Answer>(kSamples, frame);

@@ -52,7 +52,7 @@ class SelfIntersectionTest : public DeviceTest {
     void expectNoFalseHitNorLeak(Side side, const ClosedMesh& shape) {
         for (const Placement& placement : kPlacements) {
             SCOPED_TRACE(placement.name());
-            const GpuScene scene(device(), sceneOf(placed(shape, placement)));
+            const GpuScene scene(device(), packScene(sceneOf(placed(shape, placement))));
             gpu::ResourceTable resources;
             scene.addTo(resources);
             KernelRunner runner(device(), test_kernels::find("self_intersection_test"), resources);

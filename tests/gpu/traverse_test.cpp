@@ -53,7 +53,7 @@ float roundingOfT(const Ray& ray, const Triangle& triangle) {
 // The scene with both tracers, made once for all tests.
 struct Dense {
     explicit Dense(gpu::Device& device)
-        : scene(makeDenseScene(300000)), triangles(sceneTriangles(scene)), gpuScene(device, scene),
+        : scene(makeDenseScene(300000)), triangles(sceneTriangles(scene)), gpuScene(device, packScene(scene)),
           tracer(device, gpuScene), oracle(triangles, EmbreeOracle::Traversal::robust),
           cameraRays(makeCameraRays(scene.cameras.front(), kRays, 1)), cameraHits(tracer.closest(cameraRays)),
           points(hitPoints(cameraRays, cameraHits, triangles)) {}

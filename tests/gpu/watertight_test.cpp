@@ -51,7 +51,7 @@ class WatertightTest : public DeviceTest {
             for (const Placement& placement : kPlacements) {
                 SCOPED_TRACE(std::string(shape.name) + " " + placement.name());
                 const ClosedMesh mesh = placed(shape.mesh, placement);
-                const GpuScene scene(device(), sceneOf(mesh));
+                const GpuScene scene(device(), packScene(sceneOf(mesh)));
                 RayTracer tracer(device(), scene);
                 check(mesh, placement, tracer);
             }

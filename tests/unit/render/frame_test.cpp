@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "render/renderer.h"
+#include "shared/scene.h"
 
 namespace lavalight {
 namespace {
@@ -96,13 +97,19 @@ TEST(Frame, SettingsReachTheKernels) {
     EXPECT_EQ(frame.waveSize, 1400u);
 }
 
-TEST(Frame, EnvironmentOfTheSettingsReplacesTheScenes) {
+TEST(Frame, IsToldItsLights) {
     Scene scene;
     scene.environment = {1.0f, 2.0f, 3.0f};
-    RenderSettings settings = sized(8, 8);
-    expectNear(makeFrame(scene, Camera(), settings).environment, scene.environment);
-    settings.environment = glm::vec3(0.0f);
-    expectNear(makeFrame(scene, Camera(), settings).environment, glm::vec3(0.0f));
+    scene.bounds = {glm::vec3(-1.0f), glm::vec3(1.0f)};
+    FrameParameters frame = makeFrame(scene, Camera(), sized(8, 8));
+    setLights(frame, collectLights(scene, scene.environment, LightSelection::power));
+    expectNear(frame.environment, scene.environment);
+    EXPECT_EQ(frame.environmentLight, 0u);
+    EXPECT_EQ(frame.lightColumns, 1u);
+    setLights(frame, collectLights(scene, glm::vec3(0.0f), LightSelection::power));
+    expectNear(frame.environment, glm::vec3(0.0f));
+    EXPECT_EQ(frame.environmentLight, kNoLight);
+    EXPECT_EQ(frame.lightColumns, 0u);
 }
 
 } // namespace

@@ -1,0 +1,86 @@
+#include "render/scene_data.h"
+
+#include <span>
+
+#include "accel/triangle.h"
+#include "render/gpu_lights.h"
+#include "render/octahedral.h"
+#include "render/scene_features.h"
+
+namespace lavalight {
+namespace {
+
+uint32_t materialWord(const Mesh& mesh, const Material& material) {
+    uint32_t word = mesh.material;
+    if (mesh.normals.empty())
+        word |= kFlatBit;
+    if (material.doubleSided || (material.isSolid && material.transmission > 0.0f))
+        word |= kNeverCulledBit; // the far side of a glass body is part of what is seen through it
+    return word;
+}
+
+// Material word of every triangle, in the scene's numbering.
+std::vector<uint32_t> materialWords(const Scene& scene) {
+    std::vector<uint32_t> words;
+    words.reserve(scene.triangleCount());
+    for (const Mesh& mesh : scene.meshes)
+        words.insert(words.end(), mesh.triangles.size(), materialWord(mesh, scene.materials[mesh.material]));
+    return words;
+}
+
+std::vector<LeafTriangle> packLeafTriangles(const Bvh& bvh, std::span<const Triangle> triangles,
+                                            const Emitters& emitters, std::span<const uint32_t> materials) {
+    std::vector<LeafTriangle> packed;
+    packed.reserve(bvh.leafTriangles.size());
+    for (const uint32_t id : bvh.leafTriangles) {
+        const Triangle& t = triangles[id];
+        packed.push_back({t.v0, id, t.v1, emitters.emitterOfTriangle[id], t.v2, materials[id]});
+    }
+    return packed;
+}
+
+std::vector<TriangleNormals> packNormals(const Scene& scene) {
+    std::vector<TriangleNormals> packed;
+    packed.reserve(scene.triangleCount());
+    for (const Mesh& mesh : scene.meshes)
+        for (const glm::uvec3& t : mesh.triangles)
+            packed.push_back(mesh.normals.empty() ? TriangleNormals{}
+                                                  : TriangleNormals{encodeOctahedral(mesh.normals[t.x]),
+                                                                    encodeOctahedral(mesh.normals[t.y]),
+                                                                    encodeOctahedral(mesh.normals[t.z]), 0});
+    return packed;
+}
+
+uint32_t materialFlags(const Material& material) {
+    return (material.doubleSided ? kMaterialDoubleSided : 0u) | (material.isSolid ? kMaterialSolid : 0u);
+}
+
+std::vector<MaterialRecord> packMaterials(const Scene& scene) {
+    std::vector<MaterialRecord> packed;
+    for (const Material& m : scene.materials)
+        packed.push_back({m.baseColor, m.metallic, m.emission, m.roughness, m.specularColor, m.specular,
+                          m.ior, m.transmission, materialFlags(m), 0});
+    return packed;
+}
+
+} // namespace
+
+SceneData packScene(const Scene& scene, const Lights& lights) {
+    const std::vector<Triangle> triangles = sceneTriangles(scene);
+    SceneData data;
+    data.bvh = buildBvh(triangles);
+    data.leafTriangles = packLeafTriangles(data.bvh, triangles, lights.emitters, materialWords(scene));
+    data.normals = packNormals(scene);
+    data.materials = packMaterials(scene);
+    data.lights = packLights(lights, data.bvh);
+    data.punctuals = packPunctuals(scene, lights);
+    data.lightTree = packLightTree(lights.tree, scene.bounds.radius());
+    data.features = sceneFeatures(scene, lights);
+    return data;
+}
+
+SceneData packScene(const Scene& scene) {
+    return packScene(scene, collectLights(scene, scene.environment, LightSelection::power));
+}
+
+} // namespace lavalight

@@ -1,0 +1,31 @@
+// A scene in the layout of the device, before any of it is uploaded.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "accel/bvh.h"
+#include "light/lights.h"
+#include "scene/scene.h"
+#include "shared/bvh.h"
+#include "shared/scene.h"
+
+namespace lavalight {
+
+struct SceneData {
+    Bvh bvh;
+    std::vector<LeafTriangle> leafTriangles;
+    std::vector<TriangleNormals> normals;
+    std::vector<MaterialRecord> materials;
+    std::vector<LightRecord> lights;
+    std::vector<PunctualRecord> punctuals;
+    std::vector<LightTreeRecord> lightTree;
+    uint32_t features; // kFeature...
+};
+
+// Builds the BVH and packs everything; no device is needed. `lights` are the scene's.
+[[nodiscard]] SceneData packScene(const Scene& scene, const Lights& lights);
+// With its own environment, and lights picked by power.
+[[nodiscard]] SceneData packScene(const Scene& scene);
+
+} // namespace lavalight
