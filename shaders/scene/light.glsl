@@ -69,11 +69,11 @@ float environmentPdf(float cosTheta) {
 }
 
 // `reach`: a distance beyond the scene.
-LightSample sampleEnvironment(Receiver receiver, vec2 u, vec3 radiance, float reach) {
+LightSample sampleEnvironment(vec3 from, vec3 n, vec2 u, vec3 radiance, float reach) {
     const vec3 local = squareToCosineHemisphere(u);
     LightSample light;
-    light.wi = toWorld(makeBasis(receiver.n), local);
-    light.end = receiver.p + reach * light.wi;
+    light.wi = toWorld(makeBasis(n), local);
+    light.end = from + reach * light.wi;
     light.radiance = radiance;
     light.pdf = environmentPdf(local.z);
     light.isDelta = false;
@@ -81,8 +81,9 @@ LightSample sampleEnvironment(Receiver receiver, vec2 u, vec3 radiance, float re
     return light;
 }
 
-// Next-event estimation; frame.lightColumns > 0. The pdf includes the pmf of the pick.
-LightSample sampleLight(FrameParameters frame, Receiver receiver, uvec2 bits) {
+// Next-event estimation; frame.lightColumns > 0. `n`: the shading normal, which the receiver has but roughly. The pdf
+// includes the pmf of the pick.
+LightSample sampleLight(FrameParameters frame, Receiver receiver, vec3 n, uvec2 bits) {
     const LightPick pick = pickLight(frame, receiver, bits.x);
     const vec2 u = vec2(pick.place, bitsToUnit(bits.y));
     const uint source = fetchLight(pick.light).source;
@@ -95,7 +96,7 @@ LightSample sampleLight(FrameParameters frame, Receiver receiver, uvec2 bits) {
     if (sceneHas(kFeaturePunctualLights) && kind == kLightPunctual)
         light = samplePunctualLight(receiver.p, index, reach);
     if (sceneHas(kFeatureEnvironment) && kind == kLightEnvironment)
-        light = sampleEnvironment(receiver, u, frame.environment, reach);
+        light = sampleEnvironment(receiver.p, n, u, frame.environment, reach);
     light.pdf *= pick.pmf;
     return light;
 }

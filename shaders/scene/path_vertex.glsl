@@ -14,7 +14,7 @@ struct Vertex {
     Surface bsdf;
     Basis basis;
     vec3 wo;        // local
-    uint receiver;  // packed, for light sampling
+    uint receiver;  // packed, for the light tree
     float survival; // probability by albedo, known before a direction is drawn
     SampleKey key;
 };
@@ -46,7 +46,7 @@ float missLightPdf(Ray ray) {
     if (!sceneHas(kFeatureEnvironment) || frame.environmentLight == kNoLight || kNee == 0u)
         return 0.0;
     const Receiver receiver = unpackReceiver(ray.origin, ray.receiver);
-    return lightPmf(frame, receiver, frame.environmentLight) * environmentPdf(dot(receiver.n, ray.direction));
+    return lightPmf(frame, receiver, frame.environmentLight) * environmentPdf(ray.originCosine);
 }
 
 // n and ng must agree about the side of wi.
@@ -56,8 +56,8 @@ bool isSameSide(Vertex v, vec3 wi, float localZ) {
 
 // Picks a light and prepares its shadow ray; false: nothing to be had.
 bool nextEvent(Vertex v, vec3 throughput, out ShadowRay shadow) {
-    const LightSample light =
-        sampleLight(frame, unpackReceiver(v.surface.p, v.receiver), sampleBits2D(v.key, kDimensionLight));
+    const LightSample light = sampleLight(frame, unpackReceiver(v.surface.p, v.receiver), v.surface.n,
+                                          sampleBits2D(v.key, kDimensionLight));
     const vec3 wi = toLocal(v.basis, light.wi);
     if (!isSameSide(v, light.wi, wi.z))
         return false;
@@ -77,7 +77,8 @@ bool nextRay(Vertex v, inout Path path, out Ray ray) {
     const BsdfSample next =
         sampleBsdf(v.bsdf, v.wo, sample2D(v.key, kDimensionBsdf), sample1D(v.key, kDimensionLobe));
     const vec3 wi = toWorld(v.basis, next.wi);
-    ray = Ray(offsetOrigin(v.surface.p, v.surface.pError, v.surface.ng, wi), v.surface.triangle, wi, v.receiver);
+    ray = Ray(offsetOrigin(v.surface.p, v.surface.pError, v.surface.ng, wi), v.surface.triangle, wi, next.wi.z,
+              v.receiver, uint[3](0u, 0u, 0u));
     path.throughput *= next.weight;
     path.bsdfPdf = next.pdf * (kMisSurvival != 0u ? v.survival : 1.0);
     path.etaScale *= next.eta * next.eta;
@@ -103,7 +104,7 @@ Vertex makeVertex(Interaction surface, MaterialRecord material, vec3 wo, SampleK
     v.bsdf = surfaceOf(material, surface.isFront);
     v.basis = makeBasis(surface.n);
     v.wo = toLocal(v.basis, wo);
-    v.receiver = sceneHas(kFeatureEnvironment | kFeatureLightTree) ? packReceiver(surface.n, hasGlass(v.bsdf)) : 0u;
+    v.receiver = sceneHas(kFeatureLightTree) ? packReceiver(surface.n, hasGlass(v.bsdf)) : 0u;
     v.key = key;
     v.survival = key.vertex < frame.rouletteStart
                      ? 1.0

@@ -1,5 +1,5 @@
-// The point that light is sampled for, and how a ray that starts there remembers it: MIS asks again, at the other end, how
-// likely light sampling was to find what the ray found.
+// The point that the light tree picks lights for, and how a ray that starts there remembers it: MIS asks again, at the other
+// end, how likely light sampling was to find what the ray found.
 #ifndef LAVALIGHT_RECEIVER_GLSL
 #define LAVALIGHT_RECEIVER_GLSL
 

@@ -13,7 +13,9 @@ struct Ray {
     vec3 origin;
     uint fromTriangle; // id of the triangle that it starts on, or kNoTriangle
     vec3 direction;
-    uint receiver; // packed (scene/receiver.glsl): what light sampling knew of the surface where it starts
+    float originCosine; // between the direction and the shading normal where it starts
+    uint receiver;      // packed (scene/receiver.glsl): what the light tree was asked for there
+    uint unused[3];
 };
 SHARED_CONST uint kNoTriangle = 0xffffffffu;
 

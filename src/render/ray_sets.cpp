@@ -72,10 +72,10 @@ std::vector<Ray> makeCameraRays(const Camera& camera, size_t count, uint32_t see
             const glm::vec2 ndc = 2.0f * position / glm::vec2(settings.width, settings.height) - 1.0f;
             const glm::vec3 onPlane = ndc.x * frame.cameraRight - ndc.y * frame.cameraUp;
             if (frame.isOrthographic != 0)
-                rays.push_back({frame.cameraPosition + onPlane, kNoTriangle, frame.cameraForward, 0});
+                rays.push_back(freeRay(frame.cameraPosition + onPlane, frame.cameraForward));
             else
                 rays.push_back(
-                    {frame.cameraPosition, kNoTriangle, glm::normalize(frame.cameraForward + onPlane), 0});
+                    freeRay(frame.cameraPosition, glm::normalize(frame.cameraForward + onPlane)));
         }
     return rays;
 }
@@ -106,7 +106,7 @@ std::vector<Ray> makeBounceRays(std::span<const SurfacePoint> points, uint32_t s
     std::vector<Ray> rays;
     rays.reserve(points.size());
     for (const SurfacePoint& point : points)
-        rays.push_back({point.p, kNoTriangle, cosineDirection(point.ng, random), 0});
+        rays.push_back(freeRay(point.p, cosineDirection(point.ng, random)));
     return rays;
 }
 

@@ -13,6 +13,11 @@
 
 namespace lavalight {
 
+// That starts on no surface.
+[[nodiscard]] inline Ray freeRay(const glm::vec3& origin, const glm::vec3& direction) {
+    return {origin, kNoTriangle, direction, 0.0f, 0, {}};
+}
+
 // About `count` rays through random points of the pixels of an image, row by row.
 [[nodiscard]] std::vector<Ray> makeCameraRays(const Camera& camera, size_t count, uint32_t seed);
 

@@ -8,6 +8,7 @@
 #include "accel/bvh.h"
 #include "accel/embree_oracle.h"
 #include "render/gpu_scene.h"
+#include "render/ray_sets.h"
 #include "render/ray_tracer.h"
 #include "support/closed_meshes.h"
 #include "support/random_numbers.h"
@@ -50,7 +51,7 @@ TEST_F(DeepTreeTest, IsSearchedToItsEnd) {
     Random random(2);
     for (int i = 0; i < 100000; ++i) {
         const glm::vec3 towards(1.0f, random.between(-0.3f, 0.3f), random.between(-0.3f, 0.3f));
-        rays.push_back({glm::vec3(0.0f), kNoTriangle, glm::normalize(towards), 0});
+        rays.push_back(freeRay(glm::vec3(0.0f), glm::normalize(towards)));
         oracleRays.push_back({rays.back().origin, rays.back().direction});
     }
     const GpuScene gpuScene(device(), packScene(scene));

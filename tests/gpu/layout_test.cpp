@@ -20,7 +20,7 @@ namespace lavalight::test {
 namespace {
 
 // One per struct: the members count upwards in the order of their declaration, as in the kernel.
-const Ray kRay{{1, 2, 3}, 4, {5, 6, 7}, 8};
+const Ray kRay{{1, 2, 3}, 4, {5, 6, 7}, 8, 9, {10, 11, 12}};
 const Hit kHit{1, 2, {3, 4}};
 const Path kPath{{1, 2, 3}, 4, {5, 6, 7}, 8};
 const ShadowRay kShadowRay{{1, 2, 3}, 4, {5, 6, 7}, 8, {9, 10, 11}, 12};

@@ -28,7 +28,7 @@ void main() {
     const uvec2 bits = sampleBits2D(key, kDimensionLight);
     const Receiver receiver = Receiver(frame.cameraPosition, frame.cameraUp, frame.isOrthographic != 0u);
     const LightPick pick = pickLight(frame, receiver, bits.x);
-    const LightSample drawn = sampleLight(frame, receiver, bits);
+    const LightSample drawn = sampleLight(frame, receiver, receiver.n, bits);
     answers[i] = Answer(drawn.wi, drawn.pdf, drawn.radiance, pick.light, pick.pmf, lightPmf(frame, receiver, pick.light),
                         pick.place, drawn.isDelta ? 1.0 : 0.0);
 }

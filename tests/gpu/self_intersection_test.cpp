@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "render/gpu_scene.h"
+#include "render/ray_sets.h"
 #include "shared/wavefront.h"
 #include "support/closed_meshes.h"
 #include "support/random_numbers.h"
@@ -40,7 +41,7 @@ std::vector<Ray> raysFrom(Side side, const Placement& placement) {
                                      ? within(0.3f)
                                      : placement.centre() + 3.0f * placement.scale * random.direction();
         if (target != origin)
-            rays.push_back({origin, kNoTriangle, glm::normalize(target - origin), 0});
+            rays.push_back(freeRay(origin, glm::normalize(target - origin)));
     }
     return rays;
 }

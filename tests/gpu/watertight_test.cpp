@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "render/gpu_scene.h"
+#include "render/ray_sets.h"
 #include "render/ray_tracer.h"
 #include "support/closed_meshes.h"
 #include "support/random_numbers.h"
@@ -35,7 +36,7 @@ std::vector<glm::dvec3> verticesAndEdgePoints(const ClosedMesh& mesh) {
 }
 
 Ray rayTowards(const glm::vec3& origin, const glm::dvec3& target) {
-    return {origin, kNoTriangle, glm::vec3(glm::normalize(target - glm::dvec3(origin))), 0};
+    return freeRay(origin, glm::vec3(glm::normalize(target - glm::dvec3(origin))));
 }
 
 class WatertightTest : public DeviceTest {

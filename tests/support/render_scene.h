@@ -44,10 +44,9 @@ struct ImageMean {
 
 // A normal variable leaves +-4.5 with a probability of 7e-6; with fixed seeds a test passes always or never.
 constexpr double kSigmas = 4.5;
-// Relative error that rounding may bring into the radiance of a path of some ten vertices: 2^-24 each
-// operation, and in the mean nothing, but in each sample 3e-5, from light sampling, which knows the normal to
-// 16 bits a coordinate (scene/receiver.glsl).
-constexpr double kRounding = 4e-5;
+// Relative error that rounding may bring into the radiance of a path of some ten vertices (2^-24 each
+// operation).
+constexpr double kRounding = 1e-5;
 
 // Fails unless the image's mean is `expected` within kSigmas standard errors and rounding, no sample was
 // dropped, and the standard error is below `precision` of the expected value, so that the test is as sharp as
