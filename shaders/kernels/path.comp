@@ -11,8 +11,15 @@ layout(set = 0, binding = BINDING_PATHS, std430) buffer Paths { Path paths[]; };
 layout(set = 0, binding = BINDING_LANES, std430) buffer Lanes { Lane lanes[]; };
 layout(set = 0, binding = BINDING_LANE_COUNTERS, std430) buffer LaneCounts { LaneCounters counters; };
 
+// lavapipe gives each thread a run of neighbouring workgroups. If these were neighbours in the image too, the thread that got
+// the sky would wait for the one that got the ground.
+uint laneIndex() {
+    const uint group = gl_WorkGroupID.x * range.groupStride % gl_NumWorkGroups.x;
+    return group * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
+}
+
 void main() {
-    const uint index = gl_GlobalInvocationID.x;
+    const uint index = laneIndex();
     const uint first = index * range.slotsPerLane;
     const uint end = min(first + range.slotsPerLane, slotCount());
     if (first >= end)

@@ -89,6 +89,7 @@ struct WaveRange {
     uint bounce;
     uint slotsPerLane; // fused kernel: consecutive slots that an invocation takes, one after another
     uint isFirst;      // fused kernel: lanes start anew
+    uint groupStride;  // fused kernel: workgroup i takes the lanes of group i * groupStride, modulo their number
 };
 
 LAVALIGHT_SHARED_END

@@ -1,6 +1,7 @@
 #include "render/fused_paths.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace lavalight {
 namespace {
@@ -17,6 +18,15 @@ uint32_t slotsPerLane(uint32_t slots) {
 // Of a wave of any size up to `slots`.
 uint32_t mostLanes(uint32_t slots) {
     return std::max(std::min(slots, 2 * kFewestLanes), slots / kMostSlotsPerLane + 1);
+}
+
+// A number without a divisor in common with `groups`, near their golden section: multiples of it, modulo `groups`, are
+// spread evenly however many of them there are.
+uint32_t strideThrough(uint32_t groups) {
+    auto stride = static_cast<uint32_t>(0.6180339887 * groups) + 1;
+    while (std::gcd(stride, groups) != 1)
+        ++stride;
+    return stride;
 }
 
 } // namespace
@@ -52,6 +62,7 @@ void FusedPaths::renderWave(size_t bandIndex, WaveRange range) {
     range.slotsPerLane = slotsPerLane(slots);
     range.isFirst = 1;
     const uint32_t lanes = (slots + range.slotsPerLane - 1) / range.slotsPerLane;
+    range.groupStride = strideThrough(groupsFor(lanes));
     while (advance(band, range, lanes) > 0)
         range.isFirst = 0;
     commands_.begin();

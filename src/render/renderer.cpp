@@ -153,7 +153,7 @@ bool Renderer::renderBand(size_t band, uint32_t firstSample, uint32_t sampleCoun
     const double total = static_cast<double>(settings_.samples) * film_.width() * film_.height();
     for (uint32_t done = 0; done < pixels;) {
         const uint32_t count = std::min(settings_.waveSize / sampleCount, pixels - done);
-        waves_->renderWave(band, {first + done, count, firstSample, sampleCount, first, 0, 0, 0});
+        waves_->renderWave(band, {first + done, count, firstSample, sampleCount, first, 0, 0, 0, 0});
         done += count;
         pathsDone_ += uint64_t{count} * sampleCount;
         if (!keepGoing(static_cast<double>(pathsDone_) / total))

@@ -33,7 +33,7 @@ void main() {
     shadowRay[1] = ShadowRay(vec3(1, 2, 3), 4u, vec3(5, 6, 7), 8u, vec3(9, 10, 11), 12);
     bounceCounters[1] = BounceCounters(1u, 2u);
     dispatchSize[1] = DispatchSize(1u, 2u, 3u, 4u);
-    waveRange[1] = WaveRange(1u, 2u, 3u, 4u, 5u, 6u, 7u, 8u);
+    waveRange[1] = WaveRange(1u, 2u, 3u, 4u, 5u, 6u, 7u, 8u, 9u);
     frameParameters[1] = FrameParameters(vec3(1, 2, 3), 4u, vec3(5, 6, 7), 8u, vec3(9, 10, 11), 12u,
                                          vec3(13, 14, 15), 16u, vec3(17, 18, 19), 20u, vec3(21, 22, 23), 24, 25u, 26u, 27u,
                                          28, 29, 30u, 31u, 32u);

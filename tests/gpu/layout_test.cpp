@@ -26,7 +26,7 @@ const Path kPath{{1, 2, 3}, 4, {5, 6, 7}, 8};
 const ShadowRay kShadowRay{{1, 2, 3}, 4, {5, 6, 7}, 8, {9, 10, 11}, 12};
 const BounceCounters kBounceCounters{1, 2};
 const DispatchSize kDispatchSize{1, 2, 3, 4};
-const WaveRange kWaveRange{1, 2, 3, 4, 5, 6, 7, 8};
+const WaveRange kWaveRange{1, 2, 3, 4, 5, 6, 7, 8, 9};
 const FrameParameters kFrameParameters{{1, 2, 3},    4,  {5, 6, 7},    8,  {9, 10, 11}, 12, {13, 14, 15}, 16,
                                        {17, 18, 19}, 20, {21, 22, 23}, 24, 25,          26, 27,           28,
                                        29,           30, 31,           32};
