@@ -1,4 +1,4 @@
-"""Measures Lavalight beside Embree and Mitsuba 3; tools/bench runs it.
+"""Measures Lavalight beside Embree, Mitsuba 3 and Cycles; tools/bench runs it.
 
 Time to equal error: every renderer takes more and more samples of the same scene, and what counts is when its
 image is as near to the stored reference as asked: relMSE = mean((x - r)^2 / (r^2 + 0.01)) without pixels that see
@@ -19,9 +19,13 @@ from pathlib import Path
 import numpy as np
 import OpenEXR
 
+import gltf_to_mitsuba
+
 ROOT = Path(__file__).resolve().parents[1]
 REFERENCES = ROOT / "tests/references"
-SCENES = ["cornell-box", "cornell-glass", "many-lights", "veach-mis"]  # those with a reference
+SCENES = ["cornell-box", "cornell-glass", "many-lights", "veach-mis", "dense-300000", "dense-3000000"]
+DENSE_SIZE = (256, 256)  # of scenes without a stored reference
+REFERENCE_SAMPLES = 2048  # of the reference that is then made, by Lavalight with another seed
 RAY_SCENES = ["cornell-box", "dense-300000", "dense-3000000"]
 MOST_SAMPLES = 4096
 MAX_BOUNCES = 64  # of both, as the references
@@ -39,13 +43,25 @@ def trimmed_error(image, reference, counted):
     return float(np.sort(errors)[:math.ceil(0.999 * errors.size)].mean())
 
 
+def scene_file(scene, options):
+    """Path and environment of a scene for other renderers; procedural ones are exported."""
+    stored = ROOT / f"assets/{scene}.gltf"
+    if stored.exists():
+        return {"load": str(stored), "environment": [0, 0, 0]}
+    exported = options.out / f"{scene}.glb"
+    if not exported.exists():
+        subprocess.run([options.exporter, scene, exported], check=True)
+    document = gltf_to_mitsuba.Gltf(exported).json
+    return {"load": str(exported), "environment": document["scenes"][0]["extras"]["environment"]}
+
+
 class Lavalight:
     """One set of options of the program."""
 
     def __init__(self, binary, name, options=()):
         self.binary, self.name, self.options = binary, name, list(options)
 
-    def load(self, scene, size):
+    def load(self, scene, size, _):
         self.scene, self.size = scene, f"{size[0]}x{size[1]}"
 
     def render(self, samples, seed, bounces=MAX_BOUNCES):
@@ -57,13 +73,12 @@ class Lavalight:
             return read_rgb(exr), json.loads(report.read_text())["seconds"]["render"]
 
 
-class Mitsuba:
-    """A variant in a process of its own, since drjit keeps one thread pool for all."""
+class Served:
+    """A renderer in a process of its own, asked by lines of JSON."""
 
-    def __init__(self, variant, threads):
-        self.name = f"Mitsuba {variant}"
-        self.process = subprocess.Popen([sys.executable, __file__, "--serve", variant, "--threads", str(threads)],
-                                        stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+    def __init__(self, name, command):
+        self.name = name
+        self.process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
 
     def ask(self, **request):
         print(json.dumps(request), file=self.process.stdin, flush=True)
@@ -72,22 +87,31 @@ class Mitsuba:
             raise SystemExit(f"{self.name} ended; its message is above")
         return json.loads(answer)
 
-    def load(self, scene, size):
-        self.ask(load=str(ROOT / f"assets/{scene}.gltf"), size=size)
+    def load(self, scene, size, options):
+        with tempfile.TemporaryDirectory() as folder:
+            self.ask(**scene_file(scene, options), size=size, file=str(Path(folder, "image.exr")))
 
     def render(self, samples, seed):
         with tempfile.TemporaryDirectory() as folder:
-            file = str(Path(folder, "image.npy"))
+            file = str(Path(folder, "image.exr"))
             seconds = self.ask(samples=samples, seed=seed, file=file)["seconds"]
-            return np.load(file).astype(float), seconds
+            return read_rgb(file), seconds
+
+
+def mitsuba(variant, threads):
+    """drjit keeps one thread pool for all variants: each has its process."""
+    return Served(f"Mitsuba {variant}", [sys.executable, __file__, "--serve", variant, "--threads", str(threads)])
+
+
+def cycles(python, threads):
+    return Served("Cycles", [python, str(ROOT / "tools/bench_cycles.py"), "--threads", str(threads),
+                             "--bounces", str(MAX_BOUNCES)])
 
 
 def serve(variant, threads):
     """The other end of Mitsuba: renders what it is told on stdin. Lights are weighted by their power."""
     import drjit as dr
     import mitsuba as mi
-    sys.path.insert(0, str(ROOT / "tools"))
-    import gltf_to_mitsuba
     mi.set_variant(variant)
     dr.set_thread_count(threads)
     scene = None
@@ -95,7 +119,8 @@ def serve(variant, threads):
         request = json.loads(line)
         if "load" in request:
             with tempfile.TemporaryDirectory() as folder:
-                description = gltf_to_mitsuba.load(mi, request["load"], request["size"], folder)
+                description = gltf_to_mitsuba.load(mi, request["load"], request["size"], folder,
+                                                   environment=request["environment"])
                 description["integrator"] = {"type": "path", "max_depth": MAX_BOUNCES + 1, "rr_depth": ROULETTE_DEPTH}
                 scene = mi.load_dict(description)
             print("{}", flush=True)
@@ -103,7 +128,7 @@ def serve(variant, threads):
         start = time.perf_counter()
         image = np.array(mi.render(scene, spp=request["samples"], seed=request["seed"]))
         seconds = time.perf_counter() - start
-        np.save(request["file"], image)
+        mi.Bitmap(image).write(request["file"])
         print(json.dumps({"seconds": seconds}), flush=True)
 
 
@@ -117,11 +142,22 @@ def time_to(target, points):
     return seconds * error / target
 
 
+def load_reference(scene, lavalight, options):
+    stored = REFERENCES / f"{scene}.exr"
+    if stored.exists():
+        return read_rgb(stored)
+    made = options.out / f"{scene}-reference.npy"
+    if not made.exists():
+        lavalight.load(scene, DENSE_SIZE, options)
+        np.save(made, lavalight.render(REFERENCE_SAMPLES, 1000)[0])
+    return np.load(made)
+
+
 def bench_scene(scene, renderers, options):
-    reference = read_rgb(REFERENCES / f"{scene}.exr")
+    reference = load_reference(scene, renderers[0], options)
     size = (reference.shape[1], reference.shape[0])
     for renderer in renderers:
-        renderer.load(scene, size)
+        renderer.load(scene, size, options)
         renderer.render(16, 0)  # compiles
     lights, _ = renderers[0].render(64, 0, bounces=0)
     counted = lights.sum(axis=-1) == 0
@@ -160,14 +196,15 @@ def print_curves(scene, curves, pixels, options):
 
 def bench_rays(options):
     rows = []
-    print(f"{'rays, one thread':28}{'Mrays/s':>9}{'Embree':>9}{'ratio':>7}")
+    print(f"{'rays, one thread':28}{'Mrays/s':>9}{'Embree':>9}{'ratio':>7}{'nodes':>7}{'triangles':>11}")
     for scene in options.ray_scenes:
         answer = subprocess.run([options.lavalight, "bench", "rays", scene, "--json", "--repeats", str(options.repeats)],
                                 check=True, capture_output=True, text=True).stdout
         for kind in json.loads(answer)["rays"]:
             rows.append({"scene": scene, **kind})
             print(f"{scene + ' ' + kind['kind']:28}{kind['megaraysPerSecond']:9.2f}"
-                  f"{kind['embreeMegaraysPerSecond']:9.2f}{kind['ratio']:7.2f}", flush=True)
+                  f"{kind['embreeMegaraysPerSecond']:9.2f}{kind['ratio']:7.2f}"
+                  f"{kind['nodesPerRay']:7.1f}{kind['trianglesPerRay']:11.1f}", flush=True)
     return rows
 
 
@@ -187,8 +224,10 @@ def plot(results, path, target):
 
 
 def parse_options():
-    parser = argparse.ArgumentParser(prog="tools/bench", description="Speed beside Embree and Mitsuba 3.")
+    parser = argparse.ArgumentParser(prog="tools/bench", description="Speed beside Embree, Mitsuba 3 and Cycles.")
     parser.add_argument("--lavalight", default="build/release/lavalight", help="the binary to measure")
+    parser.add_argument("--exporter", default="build/release/export_scene", help="the program export_scene")
+    parser.add_argument("--cycles", help="a Python that has bpy; without it, Cycles is left out")
     parser.add_argument("--scenes", nargs="*", default=SCENES, choices=SCENES, help="for time to equal error")
     parser.add_argument("--ray-scenes", nargs="*", default=RAY_SCENES, help="for rays per second")
     parser.add_argument("--variants", nargs="*", default=["llvm_ad_rgb", "scalar_rgb"], help="of Mitsuba")
@@ -207,19 +246,21 @@ def main():
         serve(options.serve, options.threads)
         return
     options.lavalight = str(Path(options.lavalight).resolve())
+    options.out.mkdir(parents=True, exist_ok=True)
     rays = bench_rays(options)
     os.environ["LP_NUM_THREADS"] = str(options.threads)
     renderers = [Lavalight(options.lavalight, "Lavalight")]
     if options.wavefront:
         renderers.append(Lavalight(options.lavalight, "Lavalight, wavefront", ["--kernels", "wavefront"]))
-    renderers += [Mitsuba(variant, options.threads) for variant in options.variants]
+    renderers += [mitsuba(variant, options.threads) for variant in options.variants]
+    if options.cycles:
+        renderers.append(cycles(options.cycles, options.threads))
     results = {}
     for scene in options.scenes:
         curves, pixels = bench_scene(scene, renderers, options)
         print_curves(scene, curves, pixels, options)
         sys.stdout.flush()
         results[scene] = curves
-    options.out.mkdir(parents=True, exist_ok=True)
     (options.out / "bench.json").write_text(json.dumps(
         {"threads": options.threads, "target": options.target, "repeats": options.repeats, "rays": rays,
          "scenes": results}, indent=2) + "\n")

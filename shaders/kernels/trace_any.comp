@@ -1,6 +1,6 @@
 #version 460
 // Says which rays that the host made meet anything, as connect asks of those of a wave: for benchmarks and tests.
-#include "scene/traverse.glsl"
+#include "scene/visit_counts.glsl"
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = BINDING_SHADOW_RAYS, std430) readonly buffer ShadowRays { ShadowRay shadowRays[]; };
@@ -12,4 +12,5 @@ void main() {
         return;
     const ShadowRay ray = shadowRays[i];
     occluded[i] = intersectAny(ray.origin, ray.direction, 1.0, RayFilter(false, ray.fromTriangle, ray.toTriangle)) ? 1u : 0u;
+    tallyVisits();
 }

@@ -1,6 +1,6 @@
 #version 460
 // Finds the closest hit of rays that the host made, as extend does for those of a wave: for benchmarks and tests.
-#include "scene/traverse.glsl"
+#include "scene/visit_counts.glsl"
 #include "shared/trace.h"
 
 layout(local_size_x = 64) in;
@@ -17,4 +17,5 @@ void main() {
         hits[i] = TracedHit(hit.t, loadLeafTriangle(hit.leafTriangle).triangle);
     else
         hits[i] = TracedHit(kInfinity, kNoTriangle);
+    tallyVisits();
 }

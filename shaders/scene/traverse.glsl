@@ -9,9 +9,15 @@
 #include "scene/traversal_stack.glsl"
 #include "shared/bindings.h"
 #include "shared/bvh.h"
+#include "shared/frame.h"
+#include "shared/trace.h"
 #include "shared/wavefront.h"
 
 layout(set = 0, binding = BINDING_BVH_NODES) uniform usamplerBuffer bvhNodes; // kNodeTexels a node
+
+// What this invocation visited, for kernels that ask.
+layout(constant_id = CONSTANT_COUNT_VISITS) const bool kCountVisits = false;
+VisitCounts visited = VisitCounts(0u, 0u);
 
 BvhNode loadNode(uint index) {
     int texel = int(index * kNodeTexels);
@@ -65,6 +71,7 @@ bool intersectLeaf(ShearedRay ray, uint leaf, RayFilter ignored, inout Hit hit) 
     uint end = first + ((leaf >> kLeafCountShift) & kLeafCountMask);
     bool found = false;
     for (uint i = first; i < end; ++i) {
+        visited.triangles += kCountVisits ? 1u : 0u;
         LeafTriangle triangle = loadLeafTriangle(i);
         TriangleHit candidate;
         if (!intersectTriangle(ray, triangle.v0, triangle.v1, triangle.v2, hit.t, candidate) ||
@@ -89,6 +96,7 @@ bool traverse(vec3 origin, vec3 direction, RayFilter ignored, bool any, inout Hi
     while (true) {
         while (stack.size < kStackRegisters) {
             if ((current & kLeafBit) == 0u) {
+                visited.nodes += kCountVisits ? 1u : 0u;
                 BvhNode node = loadNode(current);
                 uvec4 keys = intersectBoxes(slab, node, hit.t);
                 order(keys);

@@ -30,4 +30,6 @@
 
 #define BINDING_ALBEDO_OUT 18
 
+#define BINDING_VISIT_COUNTS 21
+
 #endif

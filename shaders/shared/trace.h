@@ -11,6 +11,12 @@ struct TracedHit {
     uint triangle; // id; kNoTriangle: nothing was hit
 };
 
+// What all rays together visited, if the kernel counts.
+struct VisitCounts {
+    uint nodes;
+    uint triangles;
+};
+
 LAVALIGHT_SHARED_END
 
 #endif

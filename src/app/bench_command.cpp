@@ -31,6 +31,8 @@ struct Row {
     double agreement = 0.0; // share of the rays with the same answer from both
     double ours = 0.0;      // Mrays/s, median over the repeats
     double embree = 0.0;
+    double nodes = 0.0; // of four children, and triangles, that a ray of ours visits on average
+    double triangles = 0.0;
     [[nodiscard]] double ratio() const { return ours / embree; }
 };
 
@@ -72,7 +74,7 @@ class RayBench {
   public:
     RayBench(gpu::Device& device, const Scene& scene, uint32_t repeats)
         : scene_(&scene), repeats_(repeats), triangles_(sceneTriangles(scene)),
-          gpuScene_(device, packScene(scene)), tracer_(device, gpuScene_),
+          gpuScene_(device, packScene(scene)), tracer_(device, gpuScene_), counter_(device, gpuScene_, true),
           oracle_(triangles_, EmbreeOracle::Traversal::fast) {}
 
     // Camera rays, then rays of the other kinds from where those hit.
@@ -90,12 +92,12 @@ class RayBench {
   private:
     Row benchClosest(const char* kind, const std::vector<Ray>& rays) {
         return bench(
-            kind, rays, [this](const auto& ours) { return tracer_.closest(ours); },
+            kind, rays, [](RayTracer& tracer, const auto& ours) { return tracer.closest(ours); },
             [this](const auto& theirs) { return oracle_.closest(theirs); });
     }
     Row benchAny(const char* kind, const std::vector<ShadowRay>& rays) {
         return bench(
-            kind, rays, [this](const auto& ours) { return tracer_.occluded(ours); },
+            kind, rays, [](RayTracer& tracer, const auto& ours) { return tracer.occluded(ours); },
             [this](const auto& theirs) { return oracle_.occluded(theirs); });
     }
 
@@ -112,7 +114,7 @@ class RayBench {
         const double millions = static_cast<double>(rays.size()) * 1e-6;
         Row row{kind, rays.size()};
         for (uint32_t i = 0; i < repeats_; ++i) {
-            const auto ours = traceOurs(rays);
+            const auto ours = traceOurs(tracer_, rays);
             ourSpeeds.push_back(millions / tracer_.lastSeconds());
             const auto start = std::chrono::steady_clock::now();
             const auto theirs = traceTheirs(oracleRays);
@@ -120,6 +122,9 @@ class RayBench {
                 millions / std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
             compare(ours, theirs, row);
         }
+        static_cast<void>(traceOurs(counter_, rays));
+        row.nodes = counter_.lastVisits().nodes / static_cast<double>(rays.size());
+        row.triangles = counter_.lastVisits().triangles / static_cast<double>(rays.size());
         row.ours = median(ourSpeeds);
         row.embree = median(theirSpeeds);
         return row;
@@ -142,17 +147,19 @@ class RayBench {
     std::vector<Triangle> triangles_;
     GpuScene gpuScene_;
     RayTracer tracer_;
+    RayTracer counter_; // slower: its times do not count
     EmbreeOracle oracle_;
 };
 
 void printText(const Scene& scene, const gpu::DeviceDescription& device, const std::vector<Row>& rows) {
     fmt::print("{}: {} triangles; {} with {}; million rays per second\n", scene.source, scene.triangleCount(),
                device.name, device.driver);
-    fmt::print("{:<8}{:>10}{:>8}{:>12}{:>10}{:>8}{:>13}\n", "rays", "count", "hit", "Lavalight", "Embree",
-               "ratio", "agreement");
+    fmt::print("{:<8}{:>10}{:>8}{:>12}{:>10}{:>8}{:>13}{:>9}{:>11}\n", "rays", "count", "hit", "Lavalight",
+               "Embree", "ratio", "agreement", "nodes", "triangles");
     for (const Row& row : rows)
-        fmt::print("{:<8}{:>10}{:>7.1f}%{:>12.2f}{:>10.2f}{:>8.2f}{:>12.4f}%\n", row.kind, row.rays,
-                   100.0 * row.hitShare, row.ours, row.embree, row.ratio(), 100.0 * row.agreement);
+        fmt::print("{:<8}{:>10}{:>7.1f}%{:>12.2f}{:>10.2f}{:>8.2f}{:>12.4f}%{:>9.1f}{:>11.1f}\n", row.kind,
+                   row.rays, 100.0 * row.hitShare, row.ours, row.embree, row.ratio(), 100.0 * row.agreement,
+                   row.nodes, row.triangles);
 }
 
 void printJson(const Scene& scene, const gpu::DeviceDescription& device, const std::vector<Row>& rows,
@@ -165,7 +172,9 @@ void printJson(const Scene& scene, const gpu::DeviceDescription& device, const s
                          {"megaraysPerSecond", row.ours},
                          {"embreeMegaraysPerSecond", row.embree},
                          {"ratio", row.ratio()},
-                         {"agreement", row.agreement}});
+                         {"agreement", row.agreement},
+                         {"nodesPerRay", row.nodes},
+                         {"trianglesPerRay", row.triangles}});
     const char* threads = std::getenv(kThreadVariable);
     const nlohmann::ordered_json json = {{"scene", scene.source},
                                          {"triangles", scene.triangleCount()},

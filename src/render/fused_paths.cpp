@@ -20,8 +20,8 @@ uint32_t mostLanes(uint32_t slots) {
     return std::max(std::min(slots, 2 * kFewestLanes), slots / kMostSlotsPerLane + 1);
 }
 
-// A number without a divisor in common with `groups`, near their golden section: multiples of it, modulo `groups`, are
-// spread evenly however many of them there are.
+// A number without a divisor in common with `groups`, near their golden section: multiples of it, modulo
+// `groups`, are spread evenly however many of them there are.
 uint32_t strideThrough(uint32_t groups) {
     auto stride = static_cast<uint32_t>(0.6180339887 * groups) + 1;
     while (std::gcd(stride, groups) != 1)

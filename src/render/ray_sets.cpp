@@ -74,8 +74,7 @@ std::vector<Ray> makeCameraRays(const Camera& camera, size_t count, uint32_t see
             if (frame.isOrthographic != 0)
                 rays.push_back(freeRay(frame.cameraPosition + onPlane, frame.cameraForward));
             else
-                rays.push_back(
-                    freeRay(frame.cameraPosition, glm::normalize(frame.cameraForward + onPlane)));
+                rays.push_back(freeRay(frame.cameraPosition, glm::normalize(frame.cameraForward + onPlane)));
         }
     return rays;
 }

@@ -1,16 +1,29 @@
 #include "render/ray_tracer.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
+#include <string_view>
 
 #include "gpu/buffer.h"
 #include "kernels.h"
+#include "shared/frame.h"
 
 namespace lavalight {
+namespace {
 
-RayTracer::RayTracer(gpu::Device& device, const GpuScene& scene)
-    : device_(&device), scene_(&scene), closest_(device, kernels::find("trace_closest")),
-      any_(device, kernels::find("trace_any")) {}
+gpu::Kernel makeKernel(const gpu::Device& device, std::string_view name, bool countsVisits) {
+    const std::array<gpu::SpecialisationConstant, 1> constants{
+        {{CONSTANT_COUNT_VISITS, countsVisits ? 1u : 0u}}};
+    return {device, kernels::find(name), constants};
+}
+
+} // namespace
+
+RayTracer::RayTracer(gpu::Device& device, const GpuScene& scene, bool countsVisits)
+    : device_(&device), scene_(&scene), closest_(makeKernel(device, "trace_closest", countsVisits)),
+      any_(makeKernel(device, "trace_any", countsVisits)),
+      visits_(device, "visit counts", sizeof(VisitCounts), gpu::BufferUse::readback) {}
 
 size_t RayTracer::maxRays() const {
     return std::min<size_t>(size_t{device_->limits().maxGroups} * kWorkgroupSize,
@@ -41,14 +54,17 @@ std::vector<uint32_t> RayTracer::occluded(std::span<const ShadowRay> rays) {
     return out.downloadAll<uint32_t>();
 }
 
-void RayTracer::run(const gpu::Kernel& kernel, const gpu::ResourceTable& resources, size_t rays) {
+void RayTracer::run(const gpu::Kernel& kernel, gpu::ResourceTable resources, size_t rays) {
     assert(rays <= maxRays());
+    resources.set("Visits", visits_);
     const gpu::BoundKernel bound(*device_, kernel, resources);
     gpu::Commands commands(*device_);
     commands.begin();
+    commands.fill(visits_, 0);
     commands.dispatch(bound, static_cast<uint32_t>((rays + kWorkgroupSize - 1) / kWorkgroupSize));
     commands.submitAndWait();
     const auto time = commands.times().find(kernel.name());
+    lastVisits_ = visits_.downloadAll<VisitCounts>().front();
     lastSeconds_ = time == commands.times().end() ? 0.0 : time->second.seconds;
 }
 

@@ -17,8 +17,9 @@ namespace lavalight {
 
 class RayTracer {
   public:
-    // Builds the kernels. The device and the scene must outlive the tracer.
-    RayTracer(gpu::Device& device, const GpuScene& scene);
+    // Builds the kernels, which are slower if they are to count. The device and the scene must outlive the
+    // tracer.
+    RayTracer(gpu::Device& device, const GpuScene& scene, bool countsVisits = false);
 
     // The most rays of one call: what a dispatch and a storage buffer of the device hold.
     [[nodiscard]] size_t maxRays() const;
@@ -31,14 +32,18 @@ class RayTracer {
 
     // Device time of the last call's kernel; 0 on a queue without timestamps.
     [[nodiscard]] double lastSeconds() const { return lastSeconds_; }
+    // What the rays of the last call visited altogether, modulo 2^32; nothing unless the tracer counts.
+    [[nodiscard]] const VisitCounts& lastVisits() const { return lastVisits_; }
 
   private:
-    void run(const gpu::Kernel& kernel, const gpu::ResourceTable& resources, size_t rays);
+    void run(const gpu::Kernel& kernel, gpu::ResourceTable resources, size_t rays);
 
     gpu::Device* device_;
     const GpuScene* scene_;
     gpu::Kernel closest_;
     gpu::Kernel any_;
+    gpu::Buffer visits_;
+    VisitCounts lastVisits_{};
     double lastSeconds_ = 0.0;
 };
 

@@ -15,6 +15,7 @@
 #include "base/error.h"
 #include "scene/dense_scene.h"
 #include "scene/gltf_import.h"
+#include "scene/lamps_scene.h"
 
 namespace lavalight {
 
@@ -28,13 +29,11 @@ std::string sceneName(const EmbeddedFile& file) {
     return std::string(file.name.substr(0, file.name.rfind('.')));
 }
 
-constexpr std::string_view kDensePrefix = "dense-";
-
-// The triangles that a name such as dense-300000 asks for.
-std::optional<uint32_t> denseTriangles(std::string_view name) {
-    if (!name.starts_with(kDensePrefix))
+// The N that a name such as dense-N holds.
+std::optional<uint32_t> countAfter(std::string_view prefix, std::string_view name) {
+    if (!name.starts_with(prefix))
         return std::nullopt;
-    name.remove_prefix(kDensePrefix.size());
+    name.remove_prefix(prefix.size());
     uint32_t count = 0;
     const auto parsed = std::from_chars(name.data(), name.data() + name.size(), count);
     if (parsed.ec != std::errc() || parsed.ptr != name.data() + name.size())
@@ -49,6 +48,7 @@ std::vector<std::string> builtinNames() {
     for (const EmbeddedFile& file : builtin::files())
         names.push_back(sceneName(file));
     names.emplace_back("dense-N");
+    names.emplace_back("lamps-N");
     return names;
 }
 
@@ -57,12 +57,14 @@ Scene loadScene(const std::string& nameOrPath) {
         if (sceneName(file) == nameOrPath)
             return importGltf(nameOrPath, file.bytes);
     }
-    if (const auto triangles = denseTriangles(nameOrPath)) {
+    if (const auto triangles = countAfter("dense-", nameOrPath)) {
         if (*triangles > kMostTriangles)
             throw Error(fmt::format("cannot build {}: at most {} triangles are supported", nameOrPath,
                                     kMostTriangles));
         return makeDenseScene(*triangles);
     }
+    if (const auto lamps = countAfter("lamps-", nameOrPath))
+        return makeLampsScene(*lamps);
     std::error_code code;
     if (!std::filesystem::exists(nameOrPath, code))
         throw Error(fmt::format(

@@ -8,7 +8,8 @@
 
 namespace lavalight {
 
-// What loadScene knows without a file, for help and messages; "dense-N" stands for any number of triangles.
+// What loadScene knows without a file, for help and messages; "dense-N" stands for any number of triangles,
+// "lamps-N" of lights.
 [[nodiscard]] std::vector<std::string> builtinNames();
 
 // A built-in scene by its name, else the .gltf or .glb file of that path. Throws Error.

@@ -6,24 +6,14 @@
 #include <cmath>
 #include <string>
 
+#include "scene/integer_noise.h"
+
 namespace lavalight {
 
 namespace {
 
 constexpr float kGroundSize = 20.0f;   // metres a side
 constexpr uint32_t kMaterialCount = 4; // matt ones; the panel's comes after them
-
-// Based on: Wellons, "Prospecting for Hash Functions", 2018 (the constants of lowbias32).
-uint32_t hash(uint32_t x) {
-    x = (x ^ (x >> 16)) * 0x7feb352du;
-    x = (x ^ (x >> 15)) * 0x846ca68bu;
-    return x ^ (x >> 16);
-}
-
-// Uniform in [0, 1), a function of its three keys.
-float random(uint32_t a, uint32_t b, uint32_t c = 0) {
-    return static_cast<float>(hash(a + hash(b + hash(c))) >> 8) * 0x1p-24f;
-}
 
 // Smooth noise in [-1, 1] with a period of one unit.
 float noise(glm::vec3 p, uint32_t seed) {

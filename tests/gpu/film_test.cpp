@@ -40,7 +40,7 @@ class FilmTest : public DeviceTest {
         resources.set("Tallies", film.tallies());
         const gpu::Kernel kernel(device(), kernels::find("accumulate"));
         const gpu::BoundKernel bound(device(), kernel, resources);
-        const WaveRange range{0, kPixels, 0, 1, 0, 0, 0, 0};
+        const WaveRange range{0, kPixels, 0, 1, 0, 0, 0, 0, 0};
         gpu::Commands commands(device());
         for (const std::vector<Path>& wave : waves) {
             paths.upload(std::span<const Path>(wave));

@@ -29,7 +29,7 @@ TEST(BuiltinScenes, CornellBoxLoadsWithLightCameraAndWithoutWarnings) {
 
 TEST(BuiltinScenes, EveryListedFileLoadsWithACameraOfItsOwnAndWithoutWarnings) {
     for (const std::string& name : builtinNames()) {
-        if (name == "dense-N")
+        if (name == "dense-N" || name == "lamps-N")
             continue;
         ASSERT_EQ(loadError(name), "") << name;
         const Scene scene = loadScene(name);
@@ -59,14 +59,31 @@ TEST(BuiltinScenes, DenseScenesHaveAboutTheirNumberOfTriangles) {
     EXPECT_NEAR(static_cast<double>(loadScene("dense-20000").triangleCount()), 20000.0, 200.0);
 }
 
+TEST(BuiltinScenes, LampsAreAsManyAsAskedForAndShineDownwards) {
+    const Scene scene = loadScene("lamps-1000");
+    const Mesh& lamps = scene.meshes.back();
+    EXPECT_EQ(lamps.triangles.size(), 1000u);
+    EXPECT_GT(scene.materials[lamps.material].emission.r, 0.0f);
+    for (const glm::uvec3& t : lamps.triangles) {
+        const glm::vec3 v0 = lamps.positions[t.x];
+        ASSERT_LT(glm::cross(lamps.positions[t.y] - v0, lamps.positions[t.z] - v0).y, 0.0f);
+        for (const uint32_t corner : {t.x, t.y, t.z}) {
+            const glm::vec3& p = lamps.positions[corner];
+            ASSERT_EQ(glm::clamp(p, scene.bounds.lower, scene.bounds.upper), p);
+        }
+    }
+}
+
 TEST(BuiltinScenes, UnknownNamesListTheKnownOnes) {
-    for (const char* name : {"cornel-box", "dense-", "dense-12x", "dense--5", "missing/scene.gltf", ""}) {
+    for (const char* name :
+         {"cornel-box", "dense-", "dense-12x", "dense--5", "lamps-", "missing/scene.gltf", ""}) {
         const std::string error = loadError(name);
         EXPECT_NE(error.find("(built in: cornell-box, "), std::string::npos) << error;
         EXPECT_NE(error.find(name), std::string::npos) << error;
         EXPECT_EQ(error.find('\n'), std::string::npos) << error;
     }
     EXPECT_NE(loadError("dense-4000000000").find("at most"), std::string::npos);
+    EXPECT_NE(loadError("lamps-0").find("1 to 1000000"), std::string::npos);
 }
 
 } // namespace
