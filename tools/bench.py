@@ -23,9 +23,11 @@ import gltf_to_mitsuba
 
 ROOT = Path(__file__).resolve().parents[1]
 REFERENCES = ROOT / "tests/references"
-SCENES = ["cornell-box", "cornell-glass", "many-lights", "veach-mis", "dense-300000", "dense-3000000"]
+SCENES = ["cornell-box", "cornell-glass", "many-lights", "veach-mis"]  # those with a reference
+# Their smooth normals are read differently by each renderer, so that errors do not compare: for the cost of a path alone.
+COST_SCENES = ["dense-300000", "dense-3000000"]
 DENSE_SIZE = (256, 256)  # of scenes without a stored reference
-REFERENCE_SAMPLES = 2048  # of the reference that is then made, by Lavalight with another seed
+REFERENCE_SAMPLES = 256  # of the reference that is then made, by Lavalight with another seed
 RAY_SCENES = ["cornell-box", "dense-300000", "dense-3000000"]
 MOST_SAMPLES = 4096
 MAX_BOUNCES = 64  # of both, as the references
@@ -175,7 +177,7 @@ def bench_scene(scene, renderers, options):
             curves[renderer.name].append({"samples": samples, "seconds": statistics.median(seconds),
                                           "fastest": min(seconds), "slowest": max(seconds),
                                           "error": statistics.median(errors)})
-            if curves[renderer.name][-1]["error"] <= NEAR_ENOUGH * options.target:
+            if scene in COST_SCENES or curves[renderer.name][-1]["error"] <= NEAR_ENOUGH * options.target:
                 unfinished.remove(renderer)
         samples *= 4
     return curves, int(np.prod(size))
@@ -183,6 +185,8 @@ def bench_scene(scene, renderers, options):
 
 def print_curves(scene, curves, pixels, options):
     print(f"\n{scene}: seconds to relMSE {options.target} ({options.repeats} runs each, alternated)")
+    if scene in COST_SCENES:
+        print("(shading normals are read differently by each: only the cost of a path compares)")
     print(f"{'':28}{'seconds':>9}{'ratio':>7}{'ns a path':>11}{'spread':>13}{'error at 64':>13}")
     base = None
     for name, curve in curves.items():
@@ -228,7 +232,8 @@ def parse_options():
     parser.add_argument("--lavalight", default="build/release/lavalight", help="the binary to measure")
     parser.add_argument("--exporter", default="build/release/export_scene", help="the program export_scene")
     parser.add_argument("--cycles", help="a Python that has bpy; without it, Cycles is left out")
-    parser.add_argument("--scenes", nargs="*", default=SCENES, choices=SCENES, help="for time to equal error")
+    parser.add_argument("--scenes", nargs="*", default=SCENES, choices=SCENES + COST_SCENES,
+                        help="for time to equal error; dense-N: for the cost of a path alone")
     parser.add_argument("--ray-scenes", nargs="*", default=RAY_SCENES, help="for rays per second")
     parser.add_argument("--variants", nargs="*", default=["llvm_ad_rgb", "scalar_rgb"], help="of Mitsuba")
     parser.add_argument("--wavefront", action="store_true", help="also --kernels wavefront")
