@@ -12,8 +12,8 @@ namespace lavalight {
 namespace {
 
 constexpr uint32_t kMostLamps = 1'000'000;
-constexpr float kFloorSize = 20.0f;    // metres a side
-constexpr float kTotalPower = 4000.0f; // W per channel
+constexpr float kFloorSize = 20.0f;   // metres a side
+constexpr float kTotalPower = 800.0f; // W per channel
 
 enum MaterialIndex : uint32_t { kMatt, kLamp };
 
