@@ -32,4 +32,13 @@
 
 #define BINDING_VISIT_COUNTS 21
 
+// Textures and what surfaces need for them, read only.
+#define BINDING_PICTURES 22
+#define BINDING_TEXTURES 23
+#define BINDING_TRIANGLE_UVS 24
+#define BINDING_TRIANGLE_COLORS 25
+#define BINDING_TRIANGLE_TANGENTS 26
+#define BINDING_ENVIRONMENT_MAP 27
+#define BINDING_ENVIRONMENT_TABLE 28
+
 #endif

@@ -8,7 +8,8 @@
 LAVALIGHT_SHARED_BEGIN
 
 // The material word of a leaf triangle (shared/bvh.h): the index in the low bits, flags above. Bit 31 is kNeverCulledBit.
-SHARED_CONST uint kMaterialMask = 0x3fffffffu;
+SHARED_CONST uint kMaterialMask = 0x1fffffffu;
+SHARED_CONST uint kAlphaBit = 0x20000000u; // rays may pass through: by alpha
 SHARED_CONST uint kFlatBit = 0x40000000u; // shaded with its geometric normal
 
 // One texel a triangle: shading normals at its corners, octahedral, two 16-bit signed normalised numbers each.
@@ -19,7 +20,7 @@ struct TriangleNormals {
     uint unused;
 };
 
-// Four texels a material; the members mean what those of C++'s Material mean.
+// Eleven texels a material; the members mean what those of C++'s Material mean. 0 turns a lobe off.
 struct MaterialRecord {
     vec3 baseColor;
     float metallic;
@@ -29,11 +30,54 @@ struct MaterialRecord {
     float specular;
     float ior;
     float transmission;
-    uint flags; // kMaterial...
-    uint unused;
+    uint flags;        // kMaterial...
+    uint textureSlots; // bit i: slot i has a texture
+    uint firstTexture; // of its textures, which lie in the order of their slots
+    float alpha;
+    float alphaCutoff; // below 0: the alpha itself is the probability of being hit
+    float normalScale;
+    vec3 attenuation; // absorption per metre of the inside of a solid
+    float dispersion;
+    float clearcoat;
+    float clearcoatRoughness;
+    float clearcoatNormalScale;
+    float anisotropy;
+    vec3 sheenColor;
+    float sheenRoughness;
+    float anisotropyRotation;
+    float iridescence;
+    float iridescenceIor;
+    float iridescenceThicknessMinimum;
+    float iridescenceThicknessMaximum;
+    float diffuseTransmission;
+    float unused[2];
+    vec3 diffuseTransmissionColor;
+    float unusedLast;
 };
+SHARED_CONST uint kMaterialTexels = 11u;
 SHARED_CONST uint kMaterialDoubleSided = 1u;
 SHARED_CONST uint kMaterialSolid = 2u; // the boundary of a refracting body; else a transmissive surface is a thin wall
+SHARED_CONST uint kMaterialUnlit = 4u;
+SHARED_CONST uint kMaterialGlossiness = 8u; // the alpha of kSlotSpecularColor's texture multiplies 1 - roughness
+
+// Slots of textures: what C++'s TextureSlot says.
+SHARED_CONST uint kSlotBaseColor = 0u;
+SHARED_CONST uint kSlotMetallicRoughness = 1u;
+SHARED_CONST uint kSlotNormal = 2u;
+SHARED_CONST uint kSlotEmission = 3u;
+SHARED_CONST uint kSlotSpecular = 4u;
+SHARED_CONST uint kSlotSpecularColor = 5u;
+SHARED_CONST uint kSlotTransmission = 6u;
+SHARED_CONST uint kSlotClearcoat = 7u;
+SHARED_CONST uint kSlotClearcoatRoughness = 8u;
+SHARED_CONST uint kSlotClearcoatNormal = 9u;
+SHARED_CONST uint kSlotSheenColor = 10u;
+SHARED_CONST uint kSlotSheenRoughness = 11u;
+SHARED_CONST uint kSlotAnisotropy = 12u;
+SHARED_CONST uint kSlotIridescence = 13u;
+SHARED_CONST uint kSlotIridescenceThickness = 14u;
+SHARED_CONST uint kSlotDiffuseTransmission = 15u;
+SHARED_CONST uint kSlotDiffuseTransmissionColor = 16u;
 
 // One texel a light: its column of the alias table, and what it is. Lights of the tree have no column of their own; the
 // tree as a whole has one, after those of all other lights.
@@ -93,7 +137,20 @@ SHARED_CONST uint kFeatureTriangleLights = 32u;
 SHARED_CONST uint kFeaturePunctualLights = 64u;
 SHARED_CONST uint kFeatureEnvironment = 128u;
 SHARED_CONST uint kFeatureLightTree = 256u;
-SHARED_CONST uint kAllFeatures = 511u;
+SHARED_CONST uint kFeatureTextures = 512u;
+SHARED_CONST uint kFeatureVertexColors = 1024u;
+SHARED_CONST uint kFeatureTangents = 2048u; // of normal maps and anisotropy
+SHARED_CONST uint kFeatureAlpha = 4096u;
+SHARED_CONST uint kFeatureUnlit = 8192u;
+SHARED_CONST uint kFeatureEnvironmentMap = 16384u;
+SHARED_CONST uint kFeatureAttenuation = 32768u;
+SHARED_CONST uint kFeatureDispersion = 65536u;
+SHARED_CONST uint kFeatureClearcoat = 0x20000u;
+SHARED_CONST uint kFeatureSheen = 0x40000u;
+SHARED_CONST uint kFeatureAnisotropy = 0x80000u;
+SHARED_CONST uint kFeatureIridescence = 0x100000u;
+SHARED_CONST uint kFeatureDiffuseTransmission = 0x200000u;
+SHARED_CONST uint kAllFeatures = 0x3fffffu;
 
 // Directional albedo of the GGX lobe, tabulated over (sqrt(cosine), roughness); a row ends with its cosine-weighted average.
 SHARED_CONST uint kAlbedoCosines = 64u;
@@ -101,5 +158,9 @@ SHARED_CONST uint kAlbedoRoughnesses = 32u;
 SHARED_CONST uint kAlbedoRow = kAlbedoCosines + 1u;
 
 LAVALIGHT_SHARED_END
+
+#ifdef __cplusplus
+static_assert(sizeof(lavalight::MaterialRecord) == 16 * lavalight::kMaterialTexels);
+#endif
 
 #endif

@@ -52,14 +52,53 @@ std::vector<TriangleNormals> packNormals(const Scene& scene) {
 }
 
 uint32_t materialFlags(const Material& material) {
-    return (material.doubleSided ? kMaterialDoubleSided : 0u) | (material.isSolid ? kMaterialSolid : 0u);
+    return (material.doubleSided ? kMaterialDoubleSided : 0u) | (material.isSolid ? kMaterialSolid : 0u) |
+           (material.isUnlit ? kMaterialUnlit : 0u) | (material.isGlossiness ? kMaterialGlossiness : 0u);
+}
+
+// Per metre: what is left after attenuationDistance is attenuationColor. A channel of 0 is as good as black
+// after 1/50 of it.
+glm::vec3 absorption(const Material& material) {
+    constexpr float kDarkest = 1e-20f;
+    return -glm::log(glm::max(material.attenuationColor, glm::vec3(kDarkest))) / material.attenuationDistance;
+}
+
+MaterialRecord packMaterial(const Material& m) {
+    MaterialRecord r{};
+    r.baseColor = m.baseColor;
+    r.metallic = m.metallic;
+    r.emission = m.emission;
+    r.roughness = m.roughness;
+    r.specularColor = m.specularColor;
+    r.specular = m.specular;
+    r.ior = m.ior;
+    r.transmission = m.transmission;
+    r.flags = materialFlags(m);
+    r.alpha = m.alpha;
+    r.alphaCutoff = m.alphaMode == AlphaMode::mask ? m.alphaCutoff : -1.0f;
+    r.normalScale = m.normalScale;
+    r.attenuation = absorption(m);
+    r.dispersion = m.dispersion;
+    r.clearcoat = m.clearcoat;
+    r.clearcoatRoughness = m.clearcoatRoughness;
+    r.clearcoatNormalScale = m.clearcoatNormalScale;
+    r.anisotropy = m.anisotropy;
+    r.sheenColor = m.sheenColor;
+    r.sheenRoughness = m.sheenRoughness;
+    r.anisotropyRotation = m.anisotropyRotation;
+    r.iridescence = m.iridescence;
+    r.iridescenceIor = m.iridescenceIor;
+    r.iridescenceThicknessMinimum = m.iridescenceThicknessMinimum;
+    r.iridescenceThicknessMaximum = m.iridescenceThicknessMaximum;
+    r.diffuseTransmission = m.diffuseTransmission;
+    r.diffuseTransmissionColor = m.diffuseTransmissionColor;
+    return r;
 }
 
 std::vector<MaterialRecord> packMaterials(const Scene& scene) {
     std::vector<MaterialRecord> packed;
-    for (const Material& m : scene.materials)
-        packed.push_back({m.baseColor, m.metallic, m.emission, m.roughness, m.specularColor, m.specular,
-                          m.ior, m.transmission, materialFlags(m), 0});
+    for (const Material& material : scene.materials)
+        packed.push_back(packMaterial(material));
     return packed;
 }
 

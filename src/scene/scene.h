@@ -1,7 +1,9 @@
 // A scene as the renderer sees it: plain data in world space, whatever file it came from.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,6 +12,57 @@
 
 namespace lavalight {
 
+// A picture as decoded: four channels RGBA, rows from the top, values as in the file.
+struct Picture {
+    std::string name; // file or name in the scene, for messages
+    uint32_t width = 0;
+    uint32_t height = 0;
+    bool is16Bit = false;
+    std::vector<uint8_t> bytes; // 4 or, in the machine's byte order, 8 a texel
+};
+
+enum class Wrap : uint32_t { repeat, mirror, clamp };
+
+// What a picture is used for in a material; the order is that of kSlot... in shaders/shared/scene.h.
+enum class TextureSlot : uint32_t {
+    baseColor, // and alpha
+    metallicRoughness,
+    normal,
+    emission,
+    specular,
+    specularColor, // with Material::isGlossiness, its alpha is 1 - roughness
+    transmission,
+    clearcoat,
+    clearcoatRoughness,
+    clearcoatNormal,
+    sheenColor,
+    sheenRoughness,
+    anisotropy,
+    iridescence,
+    iridescenceThickness,
+    diffuseTransmission,
+    diffuseTransmissionColor,
+};
+constexpr size_t kTextureSlots = 17;
+
+// A picture in one slot of a material. Texels multiply the slot's factors.
+struct Texture {
+    uint32_t picture = 0; // index into Scene::pictures
+    uint32_t uvSet = 0;
+    glm::vec3 uRow{1.0f, 0.0f, 0.0f}; // u = dot(uRow, (u, v, 1)) of the vertices' coordinates, v alike
+    glm::vec3 vRow{0.0f, 1.0f, 0.0f};
+    Wrap wrapU = Wrap::repeat;
+    Wrap wrapV = Wrap::repeat;
+    bool isNearest = false; // else bilinear
+    bool isSrgb = false;    // its colour channels; else linear
+};
+
+enum class AlphaMode { opaque, mask, blend };
+
+// No attenuation inside a solid.
+constexpr float kNoAttenuation = std::numeric_limits<float>::infinity();
+
+// Factors mean what glTF's and its extensions' properties of these names mean.
 struct Material {
     std::string name;
     glm::vec3 baseColor{1.0f}; // linear Rec. 709
@@ -23,6 +76,35 @@ struct Material {
     float transmission = 0.0f; // share of light that enters the surface instead of its base
     bool isSolid = false; // a transmissive surface is the boundary of a refracting body; else a thin wall
     bool doubleSided = false;
+
+    AlphaMode alphaMode = AlphaMode::opaque;
+    float alpha = 1.0f; // of the base colour
+    float alphaCutoff = 0.5f;
+    bool isUnlit = false;      // sends its base colour to any ray, scatters nothing, is no light
+    bool isGlossiness = false; // TextureSlot::specularColor says how
+
+    glm::vec3 attenuationColor{1.0f}; // of a solid, after attenuationDistance
+    float attenuationDistance = kNoAttenuation;
+    float dispersion = 0.0f; // 20 / Abbe number
+    float clearcoat = 0.0f;
+    float clearcoatRoughness = 0.0f;
+    glm::vec3 sheenColor{0.0f};
+    float sheenRoughness = 0.0f;
+    float anisotropy = 0.0f;         // strength
+    float anisotropyRotation = 0.0f; // radians, counter-clockwise from the tangent
+    float iridescence = 0.0f;
+    float iridescenceIor = 1.3f;
+    float iridescenceThicknessMinimum = 100.0f; // nm
+    float iridescenceThicknessMaximum = 400.0f; // nm
+    float diffuseTransmission = 0.0f;
+    glm::vec3 diffuseTransmissionColor{1.0f};
+
+    float normalScale = 1.0f; // of TextureSlot::normal
+    float clearcoatNormalScale = 1.0f;
+    std::array<std::optional<Texture>, kTextureSlots> textures{}; // by TextureSlot
+    [[nodiscard]] const std::optional<Texture>& texture(TextureSlot slot) const {
+        return textures[static_cast<size_t>(slot)];
+    }
 };
 
 // One primitive of one node, baked to world space. The front of a triangle is where its vertices turn
@@ -33,6 +115,10 @@ struct Mesh {
     std::vector<glm::vec3> positions;
     std::vector<glm::vec3> normals; // unit length, one per position; empty: flat shaded
     std::vector<glm::uvec3> triangles;
+    std::vector<std::vector<glm::vec2>> uvs{}; // per set, one per position; a set that is not there is empty
+    std::vector<glm::vec4> colors{};           // linear, multiply base colour and alpha; empty: none
+    // Unit length, xyz towards growing u; w: 1 or -1, bitangent = w * cross(normal, tangent). Empty: none.
+    std::vector<glm::vec4> tangents{};
 };
 
 enum class Projection { perspective, orthographic };
@@ -81,7 +167,8 @@ struct Scene {
     std::string source; // file or built-in name
     std::vector<Mesh> meshes;
     std::vector<Material> materials; // never empty: meshes without one use a default material
-    std::vector<Camera> cameras;     // never empty after import: one that frames the scene stands in
+    std::vector<Picture> pictures;
+    std::vector<Camera> cameras; // never empty after import: one that frames the scene stands in
     std::vector<PunctualLight> punctualLights;
     glm::vec3 environment{0.0f}; // constant radiance from every direction that hits nothing
     Bounds bounds;

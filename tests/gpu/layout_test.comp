@@ -9,22 +9,22 @@
 #include "shared/wavefront.h"
 
 layout(local_size_x = 1) in;
-layout(set = 0, binding = 20, std430) writeonly buffer RayOut { Ray ray[]; };
-layout(set = 0, binding = 21, std430) writeonly buffer HitOut { Hit hit[]; };
-layout(set = 0, binding = 22, std430) writeonly buffer PathOut { Path path[]; };
-layout(set = 0, binding = 23, std430) writeonly buffer ShadowRayOut { ShadowRay shadowRay[]; };
-layout(set = 0, binding = 24, std430) writeonly buffer BounceCountersOut { BounceCounters bounceCounters[]; };
-layout(set = 0, binding = 25, std430) writeonly buffer DispatchSizeOut { DispatchSize dispatchSize[]; };
-layout(set = 0, binding = 26, std430) writeonly buffer WaveRangeOut { WaveRange waveRange[]; };
-layout(set = 0, binding = 27, std430) writeonly buffer FrameParametersOut { FrameParameters frameParameters[]; };
-layout(set = 0, binding = 28, std430) writeonly buffer BvhNodeOut { BvhNode bvhNode[]; };
-layout(set = 0, binding = 29, std430) writeonly buffer LeafTriangleOut { LeafTriangle leafTriangle[]; };
-layout(set = 0, binding = 30, std430) writeonly buffer TriangleNormalsOut { TriangleNormals normals[]; };
-layout(set = 0, binding = 31, std430) writeonly buffer MaterialRecordOut { MaterialRecord material[]; };
-layout(set = 0, binding = 32, std430) writeonly buffer LightRecordOut { LightRecord light[]; };
-layout(set = 0, binding = 34, std430) writeonly buffer PunctualRecordOut { PunctualRecord punctual[]; };
-layout(set = 0, binding = 35, std430) writeonly buffer LightTreeRecordOut { LightTreeRecord lightTreeNode[]; };
-layout(set = 0, binding = 33, std430) writeonly buffer TracedHitOut { TracedHit tracedHit[]; };
+layout(set = 0, binding = 40, std430) writeonly buffer RayOut { Ray ray[]; };
+layout(set = 0, binding = 41, std430) writeonly buffer HitOut { Hit hit[]; };
+layout(set = 0, binding = 42, std430) writeonly buffer PathOut { Path path[]; };
+layout(set = 0, binding = 43, std430) writeonly buffer ShadowRayOut { ShadowRay shadowRay[]; };
+layout(set = 0, binding = 44, std430) writeonly buffer BounceCountersOut { BounceCounters bounceCounters[]; };
+layout(set = 0, binding = 45, std430) writeonly buffer DispatchSizeOut { DispatchSize dispatchSize[]; };
+layout(set = 0, binding = 46, std430) writeonly buffer WaveRangeOut { WaveRange waveRange[]; };
+layout(set = 0, binding = 47, std430) writeonly buffer FrameParametersOut { FrameParameters frameParameters[]; };
+layout(set = 0, binding = 48, std430) writeonly buffer BvhNodeOut { BvhNode bvhNode[]; };
+layout(set = 0, binding = 49, std430) writeonly buffer LeafTriangleOut { LeafTriangle leafTriangle[]; };
+layout(set = 0, binding = 50, std430) writeonly buffer TriangleNormalsOut { TriangleNormals normals[]; };
+layout(set = 0, binding = 51, std430) writeonly buffer MaterialRecordOut { MaterialRecord material[]; };
+layout(set = 0, binding = 52, std430) writeonly buffer LightRecordOut { LightRecord light[]; };
+layout(set = 0, binding = 54, std430) writeonly buffer PunctualRecordOut { PunctualRecord punctual[]; };
+layout(set = 0, binding = 55, std430) writeonly buffer LightTreeRecordOut { LightTreeRecord lightTreeNode[]; };
+layout(set = 0, binding = 53, std430) writeonly buffer TracedHitOut { TracedHit tracedHit[]; };
 
 void main() {
     ray[1] = Ray(vec3(1, 2, 3), 4u, vec3(5, 6, 7), 8, 9u, uint[3](10u, 11u, 12u));

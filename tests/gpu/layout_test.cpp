@@ -35,7 +35,10 @@ const TracedHit kTracedHit{1, 2};
 // Loaded through texel buffers; what no kernel loads is 0.
 const BvhNode kBvhNode{{1, 2, 3}, 4, {5, 6, 7, 8}, {9, 10, 11, 12, 13, 14}, {0, 0}};
 const LeafTriangle kLeafTriangle{{1, 2, 3}, 4, {5, 6, 7}, 8, {9, 10, 11}, 12};
-const MaterialRecord kMaterialRecord{{1, 2, 3}, 4, {5, 6, 7}, 8, {9, 10, 11}, 12, 13, 14, 15, 0};
+const MaterialRecord kMaterialRecord{
+    {1, 2, 3}, 4,  {5, 6, 7},    8,  {9, 10, 11}, 12,           13, 14, 15,           16, 17, 18,
+    19,        20, {21, 22, 23}, 24, 25,          26,           27, 28, {29, 30, 31}, 32, 33, 34,
+    35,        36, 37,           38, {39, 40},    {41, 42, 43}, 44};
 const LightRecord kLightRecord{1, 2, 3, 4};
 const PunctualRecord kPunctualRecord{{1, 2, 3}, 4, {5, 6, 7}, 8, {9, 10, 11}, 12};
 const LightTreeRecord kLightTreeRecord{{1, 2, 3}, 4, 5, 6, 7, 8};

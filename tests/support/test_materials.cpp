@@ -6,7 +6,13 @@ namespace lavalight::test {
 namespace {
 
 MaterialRecord dielectric(const glm::vec3& baseColor, float roughness, float ior = 1.5f) {
-    return {baseColor, 0.0f, glm::vec3(0.0f), roughness, glm::vec3(1.0f), 1.0f, ior, 0, 0, 0};
+    MaterialRecord record{};
+    record.baseColor = baseColor;
+    record.roughness = roughness;
+    record.specularColor = glm::vec3(1.0f);
+    record.specular = 1.0f;
+    record.ior = ior;
+    return record;
 }
 
 MaterialRecord metal(const glm::vec3& baseColor, float roughness) {
