@@ -5,9 +5,11 @@
 
 #include <fmt/format.h>
 
-#include "scene/gltf_accessor.h"
 #include "scene/gltf_topology.h"
+#include "scene/gltf_vertices.h"
 #include "scene/mesh_bake.h"
+#include "scene/mesh_vertices.h"
+#include "scene/tangents.h"
 
 namespace lavalight {
 namespace {
@@ -39,31 +41,8 @@ void requireFitting(const GltfDocument& document, const MeshInstances& instances
                         kMostTriangles));
 }
 
-// The accessor of an attribute, which must hold three components a vertex; none if the primitive lacks it.
-void readAttribute(const GltfDocument& document, const tinygltf::Primitive& primitive, const char* name,
-                   std::optional<AccessorView>& view) {
-    const auto attribute = primitive.attributes.find(name);
-    if (attribute == primitive.attributes.end())
-        return;
-    view.emplace(document, attribute->second);
-    if (!view->isVec3())
-        throw document.error(fmt::format("{} is used as {} and must be a VEC3", view->name(), name));
-}
-
-void requireEqualCounts(const GltfDocument& document, const tinygltf::Primitive& primitive,
-                        const std::string& name, size_t vertexCount) {
-    for (const auto& [attribute, accessor] : primitive.attributes) {
-        const size_t count = document.model.accessors[static_cast<size_t>(accessor)].count;
-        if (count != vertexCount)
-            throw document.error(
-                fmt::format("{} has {} vertices but {} elements of {}", name, vertexCount, count, attribute));
-    }
-}
-
 void noteUnread(const GltfDocument& document, const tinygltf::Primitive& primitive, const std::string& name,
                 GltfNotes& notes) {
-    if (primitive.attributes.contains("COLOR_0"))
-        notes.addObject("vertex colours are not read yet", name);
     if (!primitive.targets.empty())
         notes.addObject("morph targets are not evaluated yet, their meshes are shown unmorphed", name);
     const int indices = primitive.indices;
@@ -80,22 +59,15 @@ Mesh readPrimitive(const GltfDocument& document, const tinygltf::Primitive& prim
         notes.addObject("points and lines are not rendered", name);
         return mesh;
     }
-    std::optional<AccessorView> positions;
-    std::optional<AccessorView> normals;
-    readAttribute(document, primitive, "POSITION", positions);
-    readAttribute(document, primitive, "NORMAL", normals);
-    if (!positions) {
+    if (!primitive.attributes.contains("POSITION")) {
         notes.addObject("a primitive without positions shows nothing", name);
         return mesh;
     }
-    requireEqualCounts(document, primitive, name, positions->count());
+    const size_t vertexCount = countVertices(document, primitive, name);
     noteUnread(document, primitive, name, notes);
-    mesh.triangles = readTriangles(document, primitive, positions->count());
-    for (const uint32_t vertex : compactIndices(mesh.triangles)) {
-        mesh.positions.push_back(positions->vec3At(vertex));
-        if (normals)
-            mesh.normals.push_back(normals->vec3At(vertex));
-    }
+    std::vector<glm::uvec3> triangles = readTriangles(document, primitive, vertexCount);
+    mesh = readVertices(document, primitive, compactIndices(triangles), name, notes);
+    mesh.triangles = std::move(triangles);
     return mesh;
 }
 
@@ -108,12 +80,24 @@ void noteCounts(const BakeCounts& counts, GltfNotes& notes) {
     if (counts.repairedNormals > 0)
         notes.add(fmt::format("{} normals of no direction were replaced by those of the triangles",
                               counts.repairedNormals));
+    if (counts.repairedTangents > 0)
+        notes.add(fmt::format("{} tangents of no direction were replaced by others along the surface",
+                              counts.repairedTangents));
+}
+
+// One mesh of the scene: in world space, with tangents where its material wants them.
+Mesh placeMesh(const Mesh& local, const glm::dmat4& toWorld, const Material& material, BakeCounts& counts) {
+    Mesh mesh = bakeMesh(local, toWorld, counts);
+    const std::optional<uint32_t> uvSet = tangentUvSet(material);
+    if (mesh.tangents.empty() && uvSet)
+        generateTangents(mesh, *uvSet);
+    return mesh;
 }
 
 } // namespace
 
 std::vector<Mesh> readMeshes(const GltfDocument& document, const std::vector<PlacedNode>& nodes,
-                             uint32_t defaultMaterial, GltfNotes& notes) {
+                             const std::vector<Material>& materials, GltfNotes& notes) {
     const MeshInstances instances = groupByMesh(document, nodes);
     requireFitting(document, instances);
     std::vector<Mesh> meshes;
@@ -125,12 +109,12 @@ std::vector<Mesh> readMeshes(const GltfDocument& document, const std::vector<Pla
         const std::string name = describe("mesh", i, source.name);
         for (const tinygltf::Primitive& primitive : source.primitives) {
             Mesh local = readPrimitive(document, primitive, name, notes);
-            local.material =
-                primitive.material < 0 ? defaultMaterial : static_cast<uint32_t>(primitive.material);
+            local.material = primitive.material < 0 ? static_cast<uint32_t>(materials.size() - 1)
+                                                    : static_cast<uint32_t>(primitive.material);
             for (const PlacedNode* placed : instances[i]) {
                 const auto& node = document.model.nodes[static_cast<size_t>(placed->node)];
                 local.name = printable(source.name.empty() ? node.name : source.name);
-                Mesh baked = bakeMesh(local, placed->toWorld, counts);
+                Mesh baked = placeMesh(local, placed->toWorld, materials[local.material], counts);
                 if (!baked.triangles.empty())
                     meshes.push_back(std::move(baked));
             }
