@@ -74,13 +74,9 @@ void requireInsideBuffer(const GltfDocument& document, int index) {
 }
 
 std::string_view bytesOfView(const GltfDocument& document, int index) {
-    requireInsideBuffer(document, index);
-    const tinygltf::BufferView& view = document.model.bufferViews[static_cast<size_t>(index)];
-    const GltfBuffer& buffer = bufferOf(document, index);
-    if (buffer.bytes.empty())
-        throw document.error(
-            fmt::format("buffer {} is needed but has neither a uri nor a BIN chunk", view.buffer));
-    return std::string_view(buffer.bytes).substr(view.byteOffset, view.byteLength);
+    const tinygltf::BufferView& view = document.model.bufferViews.at(static_cast<size_t>(index));
+    return bytesOf(document.buffers, {static_cast<size_t>(view.buffer), view.byteOffset, view.byteLength},
+                   describe("buffer view", static_cast<size_t>(index), view.name), document.source);
 }
 
 // The bytes of `range`, from its first element to the end of the view. Multiplies nothing that could

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "scene/gltf_instancing.h"
 #include "scene/gltf_topology.h"
 #include "scene/gltf_vertices.h"
 #include "scene/mesh_bake.h"
@@ -20,7 +21,7 @@ MeshInstances groupByMesh(const GltfDocument& document, const std::vector<Placed
     MeshInstances instances(document.model.meshes.size());
     for (const PlacedNode& placed : nodes) {
         const int mesh = document.model.nodes[static_cast<size_t>(placed.node)].mesh;
-        if (mesh >= 0)
+        if (mesh >= 0 && placed.isVisible)
             instances[static_cast<size_t>(mesh)].push_back(&placed);
     }
     return instances;
@@ -33,7 +34,10 @@ void requireFitting(const GltfDocument& document, const MeshInstances& instances
         double ofMesh = 0.0;
         for (const tinygltf::Primitive& primitive : document.model.meshes[i].primitives)
             ofMesh += static_cast<double>(triangleCount(primitive, document));
-        total += ofMesh * static_cast<double>(instances[i].size());
+        for (const PlacedNode* placed : instances[i]) {
+            const tinygltf::Node& node = document.model.nodes[static_cast<size_t>(placed->node)];
+            total += ofMesh * static_cast<double>(instanceCount(document, node));
+        }
     }
     if (total > static_cast<double>(kMostTriangles))
         throw document.error(
@@ -85,14 +89,58 @@ void noteCounts(const BakeCounts& counts, GltfNotes& notes) {
                               counts.repairedTangents));
 }
 
-// One mesh of the scene: in world space, with tangents where its material wants them.
-Mesh placeMesh(const Mesh& local, const glm::dmat4& toWorld, const Material& material, BakeCounts& counts) {
-    Mesh mesh = bakeMesh(local, toWorld, counts);
-    const std::optional<uint32_t> uvSet = tangentUvSet(material);
-    if (mesh.tangents.empty() && uvSet)
-        generateTangents(mesh, *uvSet);
-    return mesh;
-}
+// Reads primitives and places them in the scene.
+class MeshReader {
+  public:
+    MeshReader(const GltfDocument& document, const std::vector<Material>& materials, GltfNotes& notes)
+        : document_(document), materials_(materials), notes_(notes) {}
+
+    // Everything that nodes show of glTF's mesh `index`.
+    void read(size_t index, const std::vector<const PlacedNode*>& nodes) {
+        const tinygltf::Mesh& source = document_.model.meshes[index];
+        const std::string name = describe("mesh", index, source.name);
+        for (const tinygltf::Primitive& primitive : source.primitives) {
+            Mesh local = readPrimitive(document_, primitive, name, notes_);
+            local.material = primitive.material < 0 ? static_cast<uint32_t>(materials_.size() - 1)
+                                                    : static_cast<uint32_t>(primitive.material);
+            if (local.triangles.empty())
+                continue;
+            for (const PlacedNode* placed : nodes) {
+                const tinygltf::Node& node = document_.model.nodes[static_cast<size_t>(placed->node)];
+                local.name = printable(source.name.empty() ? node.name : source.name);
+                placeInstances(local, *placed, node);
+            }
+        }
+    }
+
+    [[nodiscard]] std::vector<Mesh> finish() {
+        noteCounts(counts_, notes_);
+        return std::move(meshes_);
+    }
+
+  private:
+    void placeInstances(const Mesh& local, const PlacedNode& placed, const tinygltf::Node& node) {
+        const InstanceReader instances(document_, node);
+        for (size_t i = 0; i < instances.count(); ++i)
+            place(local, placed.toWorld * instances.transform(i));
+    }
+
+    // To world space, with tangents where the material wants them.
+    void place(const Mesh& local, const glm::dmat4& toWorld) {
+        Mesh mesh = bakeMesh(local, toWorld, counts_);
+        const std::optional<uint32_t> uvSet = tangentUvSet(materials_[local.material]);
+        if (mesh.tangents.empty() && uvSet)
+            generateTangents(mesh, *uvSet);
+        if (!mesh.triangles.empty())
+            meshes_.push_back(std::move(mesh));
+    }
+
+    const GltfDocument& document_;
+    const std::vector<Material>& materials_;
+    GltfNotes& notes_;
+    BakeCounts counts_;
+    std::vector<Mesh> meshes_;
+};
 
 } // namespace
 
@@ -100,28 +148,12 @@ std::vector<Mesh> readMeshes(const GltfDocument& document, const std::vector<Pla
                              const std::vector<Material>& materials, GltfNotes& notes) {
     const MeshInstances instances = groupByMesh(document, nodes);
     requireFitting(document, instances);
-    std::vector<Mesh> meshes;
-    BakeCounts counts;
+    MeshReader reader(document, materials, notes);
     for (size_t i = 0; i < instances.size(); ++i) {
-        if (instances[i].empty())
-            continue;
-        const tinygltf::Mesh& source = document.model.meshes[i];
-        const std::string name = describe("mesh", i, source.name);
-        for (const tinygltf::Primitive& primitive : source.primitives) {
-            Mesh local = readPrimitive(document, primitive, name, notes);
-            local.material = primitive.material < 0 ? static_cast<uint32_t>(materials.size() - 1)
-                                                    : static_cast<uint32_t>(primitive.material);
-            for (const PlacedNode* placed : instances[i]) {
-                const auto& node = document.model.nodes[static_cast<size_t>(placed->node)];
-                local.name = printable(source.name.empty() ? node.name : source.name);
-                Mesh baked = placeMesh(local, placed->toWorld, materials[local.material], counts);
-                if (!baked.triangles.empty())
-                    meshes.push_back(std::move(baked));
-            }
-        }
+        if (!instances[i].empty())
+            reader.read(i, instances[i]);
     }
-    noteCounts(counts, notes);
-    return meshes;
+    return reader.finish();
 }
 
 } // namespace lavalight
