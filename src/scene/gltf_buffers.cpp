@@ -78,10 +78,6 @@ std::filesystem::path fileInFolder(std::string_view uri, const GltfSource& sourc
     return file;
 }
 
-std::string loadUri(std::string_view uri, const GltfSource& source) {
-    return uri.starts_with("data:") ? decodeDataUri(uri) : readFile(fileInFolder(uri, source));
-}
-
 std::string loadBuffer(const nlohmann::json& buffer, std::string_view binary, const GltfSource& source) {
     const auto uri = buffer.find("uri");
     if (uri != buffer.end())
@@ -96,6 +92,10 @@ std::string nameOf(const nlohmann::json& buffer) {
 }
 
 } // namespace
+
+std::string loadUri(std::string_view uri, const GltfSource& source) {
+    return uri.starts_with("data:") ? decodeDataUri(uri) : readFile(fileInFolder(uri, source));
+}
 
 std::vector<GltfBuffer> loadBuffers(const nlohmann::json& json, std::string_view binary,
                                     const GltfSource& source) {

@@ -23,6 +23,10 @@ struct GltfBuffer {
         bytes; // byteLength of them, or none: a buffer may be declared without data, for extensions to use
 };
 
+// The bytes of a data URI or of a file in the scene's folder, as the comment below says of buffers. Throws
+// Error, which names neither the scene nor the object.
+[[nodiscard]] std::string loadUri(std::string_view uri, const GltfSource& source);
+
 // Each element of `json`'s "buffers". A buffer is the BIN chunk, a base64
 // data URI, or a regular file inside the scene's folder: a file from somewhere else must not make this
 // program read the user's other files, so absolute paths, schemes and ways out of the folder are refused.

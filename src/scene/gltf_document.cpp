@@ -13,25 +13,15 @@
 
 #include "scene/gltf_container.h"
 #include "scene/gltf_draco.h"
+#include "scene/gltf_extensions.h"
 #include "scene/gltf_meshopt.h"
 #include "scene/gltf_schema.h"
+#include "scene/gltf_variants.h"
 
 namespace lavalight {
 namespace {
 
 using Json = nlohmann::json;
-
-constexpr std::array<std::string_view, 12> kSupportedExtensions = {
-    "EXT_mesh_gpu_instancing", "EXT_meshopt_compression",         "KHR_draco_mesh_compression",
-    "KHR_lights_punctual",     "KHR_materials_emissive_strength", "KHR_materials_ior",
-    "KHR_materials_specular",  "KHR_materials_transmission",      "KHR_materials_volume",
-    "KHR_mesh_quantization",   "KHR_meshopt_compression",         "KHR_node_visibility",
-};
-
-bool isSupported(std::string_view extension) {
-    return std::find(kSupportedExtensions.begin(), kSupportedExtensions.end(), extension) !=
-           kSupportedExtensions.end();
-}
 
 struct Version {
     int major = 0;
@@ -85,14 +75,14 @@ void collectExtensions(const Json& json, const std::string& source, std::set<std
 void sortExtensions(const Json& json, GltfDocument& document) {
     const auto required = namesIn(json, "extensionsRequired");
     for (const std::string& name : required) {
-        if (!isSupported(name))
+        if (!isSupportedExtension(name))
             throw document.error(fmt::format("it requires the extension {}, which is not supported", name));
     }
     document.extensionsUsed = namesIn(json, "extensionsUsed");
     std::set<std::string> names(document.extensionsUsed.begin(), document.extensionsUsed.end());
     collectExtensions(json, document.source, names);
     std::copy_if(names.begin(), names.end(), std::back_inserter(document.ignoredExtensions),
-                 [](const std::string& name) { return !isSupported(name); });
+                 [](const std::string& name) { return !isSupportedExtension(name); });
 }
 
 // tinygltf refuses index accessors without a buffer view, which glTF fills with zeros or sparse elements.
@@ -183,11 +173,13 @@ GltfDocument parseGltf(std::string_view bytes, const GltfSource& source) {
     document.source = source.name;
     checkVersion(json, source.name);
     sortExtensions(json, document);
-    document.textureCount = sizeOf(json, "textures");
     document.animationCount = sizeOf(json, "animations");
     document.buffers = loadBuffers(json, container.binary, source);
     decodeMeshopt(json, document.buffers, source.name);
     decodeDraco(json, document.buffers, source.name);
+    document.textures = readTextures(json);
+    document.images = loadImages(json, document.buffers, source);
+    document.variants = readVariants(json);
     std::vector<size_t> primitiveCounts;
     if (json.contains("meshes")) {
         for (const Json& mesh : json.at("meshes"))

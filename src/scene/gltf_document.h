@@ -1,6 +1,7 @@
 // A glTF file, parsed and checked, with its bytes at hand.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -8,19 +9,24 @@
 #include <tiny_gltf.h>
 
 #include "scene/gltf_buffers.h"
+#include "scene/gltf_image.h"
 #include "scene/gltf_notes.h"
+#include "scene/gltf_texture.h"
 
 namespace lavalight {
 
 struct GltfDocument {
     std::string source; // for messages
-    // Every index in it has been checked against the array that it points into. Buffers are in `buffers`;
-    // images, textures, animations and skins are counted below and left out.
+    // Every index in it has been checked against the array that it points into. What follows in members of
+    // its own is left out there.
     tinygltf::Model model;
     std::vector<GltfBuffer> buffers;
     std::vector<std::string> extensionsUsed;    // as the file lists them
     std::vector<std::string> ignoredExtensions; // listed or present on an object, and not supported
-    size_t textureCount = 0;
+    std::vector<GltfImage> images;
+    std::vector<GltfTexture> textures;
+    std::vector<std::string> variants; // names
+    std::optional<int> variant;        // that is to be shown
     size_t animationCount = 0;
 
     [[nodiscard]] Error error(std::string_view text) const { return gltfError(source, text); }

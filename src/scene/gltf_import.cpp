@@ -16,6 +16,8 @@
 #include "scene/gltf_material.h"
 #include "scene/gltf_mesh.h"
 #include "scene/gltf_nodes.h"
+#include "scene/gltf_pictures.h"
+#include "scene/gltf_variants.h"
 
 namespace lavalight {
 namespace {
@@ -23,8 +25,6 @@ namespace {
 void noteIgnored(const GltfDocument& document, const std::vector<PlacedNode>& nodes, GltfNotes& notes) {
     for (const std::string& extension : document.ignoredExtensions)
         notes.add(fmt::format("the extension {} is not supported and was ignored", printable(extension)));
-    if (document.textureCount > 0)
-        notes.add(fmt::format("textures are not read yet: {} textures ignored", document.textureCount));
     if (document.animationCount > 0)
         notes.add(
             fmt::format("animations are not evaluated yet: {} ignored, nodes stay where they are placed",
@@ -73,7 +73,9 @@ Scene buildScene(const GltfDocument& document, [[maybe_unused]] const ImportOpti
 
     const std::vector<PlacedNode> nodes = placeNodes(document);
     noteIgnored(document, nodes, notes);
+    scene.variants = document.variants;
     scene.materials = readMaterials(document, notes);
+    scene.pictures = readPictures(document, scene.materials, notes);
     scene.meshes = readMeshes(document, nodes, scene.materials, notes);
     scene.bounds = boundsOf(scene.meshes);
     scene.cameras = readCameras(document, nodes, notes);
@@ -92,7 +94,9 @@ Scene buildScene(const GltfDocument& document, [[maybe_unused]] const ImportOpti
 
 Scene import(const GltfSource& source, std::string_view bytes, const ImportOptions& options) {
     try {
-        return buildScene(parseGltf(bytes, source), options);
+        GltfDocument document = parseGltf(bytes, source);
+        document.variant = findVariant(document.variants, options.variant, document.source);
+        return buildScene(document, options);
     } catch (const std::bad_alloc&) {
         throw gltfError(source.name, "the memory does not suffice");
     } catch (const std::length_error&) {

@@ -7,6 +7,7 @@
 
 #include "scene/gltf_instancing.h"
 #include "scene/gltf_topology.h"
+#include "scene/gltf_variants.h"
 #include "scene/gltf_vertices.h"
 #include "scene/mesh_bake.h"
 #include "scene/mesh_vertices.h"
@@ -101,8 +102,9 @@ class MeshReader {
         const std::string name = describe("mesh", index, source.name);
         for (const tinygltf::Primitive& primitive : source.primitives) {
             Mesh local = readPrimitive(document_, primitive, name, notes_);
-            local.material = primitive.material < 0 ? static_cast<uint32_t>(materials_.size() - 1)
-                                                    : static_cast<uint32_t>(primitive.material);
+            const int material = materialOf(primitive, document_.variant);
+            local.material =
+                material < 0 ? static_cast<uint32_t>(materials_.size() - 1) : static_cast<uint32_t>(material);
             if (local.triangles.empty())
                 continue;
             for (const PlacedNode* placed : nodes) {

@@ -1,24 +1,10 @@
 // The table of gltf_schema_rules.h: all that Lavalight reads, and every reference between objects.
 #include "scene/gltf_schema_rules.h"
 
+#include "scene/gltf_material_rules.h"
+
 namespace lavalight {
 namespace {
-
-PropertyRule required(std::string_view name, Kind kind) {
-    return {name, kind, Need::required};
-}
-PropertyRule optional(std::string_view name, Kind kind) {
-    return {name, kind};
-}
-PropertyRule numbers(std::string_view name, size_t length) {
-    return {name, Kind::number, Need::optional, length};
-}
-PropertyRule index(std::string_view name, std::string_view target, Need need = Need::optional) {
-    return {name, Kind::index, need, kNoArray, target};
-}
-PropertyRule indices(std::string_view name, std::string_view target) {
-    return {name, Kind::index, Need::optional, kAnyLength, target};
-}
 
 void addFileRules(std::vector<ObjectRule>& rules) {
     rules.push_back({"",
@@ -101,37 +87,6 @@ void addGeometryExtensionRules(std::vector<ObjectRule>& rules) {
     rules.push_back({"nodes[].extensions.EXT_mesh_gpu_instancing", {optional("attributes", Kind::object)}});
     rules.push_back({"nodes[].extensions.EXT_mesh_gpu_instancing.attributes", {index("*", "accessors")}});
     rules.push_back({"nodes[].extensions.KHR_node_visibility", {optional("visible", Kind::flag)}});
-}
-
-void addMaterialRules(std::vector<ObjectRule>& rules) {
-    rules.push_back({"materials[]",
-                     {optional("name", Kind::text), numbers("emissiveFactor", 3),
-                      optional("alphaMode", Kind::text), optional("alphaCutoff", Kind::number),
-                      optional("doubleSided", Kind::flag), optional("extensions", Kind::object)}});
-    rules.push_back({"materials[].pbrMetallicRoughness",
-                     {numbers("baseColorFactor", 4), optional("metallicFactor", Kind::number),
-                      optional("roughnessFactor", Kind::number)}});
-    rules.push_back({"materials[].extensions.KHR_materials_emissive_strength",
-                     {optional("emissiveStrength", Kind::number)}});
-    rules.push_back({"materials[].extensions.KHR_materials_specular",
-                     {optional("specularFactor", Kind::number), numbers("specularColorFactor", 3)}});
-    rules.push_back({"materials[].extensions.KHR_materials_ior", {optional("ior", Kind::number)}});
-    rules.push_back({"materials[].extensions.KHR_materials_transmission",
-                     {optional("transmissionFactor", Kind::number)}});
-    rules.push_back({"materials[].extensions.KHR_materials_volume",
-                     {optional("thicknessFactor", Kind::number),
-                      optional("attenuationDistance", Kind::number), numbers("attenuationColor", 3)}});
-    for (const char* texture :
-         {"materials[].pbrMetallicRoughness.baseColorTexture",
-          "materials[].pbrMetallicRoughness.metallicRoughnessTexture", "materials[].normalTexture",
-          "materials[].occlusionTexture", "materials[].emissiveTexture",
-          "materials[].extensions.KHR_materials_specular.specularTexture",
-          "materials[].extensions.KHR_materials_specular.specularColorTexture",
-          "materials[].extensions.KHR_materials_transmission.transmissionTexture",
-          "materials[].extensions.KHR_materials_volume.thicknessTexture"})
-        rules.push_back({texture, {index("index", "textures", Need::required)}});
-    rules.push_back({"textures[]", {index("sampler", "samplers")}});
-    rules.push_back({"images[]", {index("bufferView", "bufferViews"), optional("uri", Kind::text)}});
 }
 
 void addMotionRules(std::vector<ObjectRule>& rules) {

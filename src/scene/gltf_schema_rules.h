@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -34,9 +35,26 @@ struct PropertyRule {
     std::string_view target = {}; // the array that an index points into, from the root: "a.b.array"
 };
 
+[[nodiscard]] inline PropertyRule required(std::string_view name, Kind kind) {
+    return {name, kind, Need::required};
+}
+[[nodiscard]] inline PropertyRule optional(std::string_view name, Kind kind) {
+    return {name, kind};
+}
+[[nodiscard]] inline PropertyRule numbers(std::string_view name, size_t length) {
+    return {name, Kind::number, Need::optional, length};
+}
+[[nodiscard]] inline PropertyRule index(std::string_view name, std::string_view target,
+                                        Need need = Need::optional) {
+    return {name, Kind::index, need, kNoArray, target};
+}
+[[nodiscard]] inline PropertyRule indices(std::string_view name, std::string_view target) {
+    return {name, Kind::index, Need::optional, kAnyLength, target};
+}
+
 // `path` leads from the root to objects: "meshes[].primitives[]" is every primitive of every mesh.
 struct ObjectRule {
-    std::string_view path;
+    std::string path;
     std::vector<PropertyRule> properties;
 };
 

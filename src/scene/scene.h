@@ -10,16 +10,9 @@
 
 #include <glm/glm.hpp>
 
-namespace lavalight {
+#include "image/picture.h"
 
-// A picture as decoded: four channels RGBA, rows from the top, values as in the file.
-struct Picture {
-    std::string name; // file or name in the scene, for messages
-    uint32_t width = 0;
-    uint32_t height = 0;
-    bool is16Bit = false;
-    std::vector<uint8_t> bytes; // 4 or, in the machine's byte order, 8 a texel
-};
+namespace lavalight {
 
 enum class Wrap : uint32_t { repeat, mirror, clamp };
 
@@ -175,6 +168,7 @@ struct Scene {
     std::vector<std::string> warnings;          // what was not understood, one line each, with names
     std::vector<std::string> ignoredExtensions; // exact names; they enter the bias ledger
     std::vector<std::string> extensionsUsed;    // exact names as the file lists them
+    std::vector<std::string> variants;          // of the materials, by name
 
     [[nodiscard]] uint64_t triangleCount() const {
         uint64_t count = 0;

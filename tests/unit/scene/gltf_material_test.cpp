@@ -128,17 +128,77 @@ TEST(GltfMaterial, TransmissionAndThicknessOutOfRangeAreClampedWithAWarning) {
     EXPECT_EQ(warningsWith(scene, "thicknessFactor was clamped"), 1);
 }
 
-TEST(GltfMaterial, AttenuationIsNamedAsNotReadWhereItWouldBeSeen) {
-    const auto warnings = [](const Json& volume) {
-        return warningsWith(
-            triangleOf(glass({{"transmissionFactor", 1}}, volume)).import(),
-            "attenuation is not read yet, these materials are shown clear: material 0 \"pane\"");
-    };
+TEST(GltfMaterial, AttenuationIsRead) {
     const Json green = {0.1, 0.9, 0.1};
-    EXPECT_EQ(warnings({{"thicknessFactor", 1}, {"attenuationDistance", 2}, {"attenuationColor", green}}), 1);
-    EXPECT_EQ(warnings({{"thicknessFactor", 1}, {"attenuationColor", green}}), 0); // at no finite distance
-    EXPECT_EQ(warnings({{"thicknessFactor", 1}, {"attenuationDistance", 2}}), 0);  // of white
-    EXPECT_EQ(warnings({{"attenuationDistance", 2}, {"attenuationColor", green}}), 0); // in a thin wall
+    const Material material = importMaterial(
+        glass({{"transmissionFactor", 1}},
+              {{"thicknessFactor", 1}, {"attenuationDistance", 2}, {"attenuationColor", green}}));
+    EXPECT_EQ(material.attenuationColor, glm::vec3(0.1f, 0.9f, 0.1f));
+    EXPECT_FLOAT_EQ(material.attenuationDistance, 2.0f);
+    EXPECT_EQ(importMaterial(glass(Json::object(), {{"thicknessFactor", 1}})).attenuationDistance,
+              kNoAttenuation);
+}
+
+TEST(GltfMaterial, LayersAreRead) {
+    const Material m = importMaterial(
+        {{"extensions",
+          {{"KHR_materials_clearcoat", {{"clearcoatFactor", 0.25}, {"clearcoatRoughnessFactor", 0.125}}},
+           {"KHR_materials_sheen", {{"sheenColorFactor", {0.5, 0.25, 1}}, {"sheenRoughnessFactor", 0.75}}},
+           {"KHR_materials_anisotropy", {{"anisotropyStrength", 0.5}, {"anisotropyRotation", 1.5}}},
+           {"KHR_materials_iridescence",
+            {{"iridescenceFactor", 1}, {"iridescenceIor", 1.75}, {"iridescenceThicknessMaximum", 500}}},
+           {"KHR_materials_dispersion", {{"dispersion", 2}}},
+           {"KHR_materials_diffuse_transmission",
+            {{"diffuseTransmissionFactor", 0.5}, {"diffuseTransmissionColorFactor", {1, 0.5, 0}}}}}}});
+    EXPECT_EQ(m.clearcoat, 0.25f);
+    EXPECT_EQ(m.clearcoatRoughness, 0.125f);
+    EXPECT_EQ(m.sheenColor, glm::vec3(0.5f, 0.25f, 1.0f));
+    EXPECT_EQ(m.sheenRoughness, 0.75f);
+    EXPECT_EQ(m.anisotropy, 0.5f);
+    EXPECT_EQ(m.anisotropyRotation, 1.5f);
+    EXPECT_EQ(m.iridescence, 1.0f);
+    EXPECT_EQ(m.iridescenceIor, 1.75f);
+    EXPECT_EQ(m.iridescenceThicknessMinimum, 100.0f);
+    EXPECT_EQ(m.iridescenceThicknessMaximum, 500.0f);
+    EXPECT_EQ(m.dispersion, 2.0f);
+    EXPECT_EQ(m.diffuseTransmission, 0.5f);
+    EXPECT_EQ(m.diffuseTransmissionColor, glm::vec3(1.0f, 0.5f, 0.0f));
+}
+
+TEST(GltfMaterial, SpecularGlossinessIsADielectricWhoseF0IsItsColour) {
+    const Material m = importMaterial({{"extensions",
+                                        {{"KHR_materials_pbrSpecularGlossiness",
+                                          {{"diffuseFactor", {0.5, 0.25, 0.125, 0.75}},
+                                           {"specularFactor", {0.1, 0.2, 0.3}},
+                                           {"glossinessFactor", 0.75}}}}}});
+    EXPECT_EQ(m.baseColor, glm::vec3(0.5f, 0.25f, 0.125f));
+    EXPECT_EQ(m.alpha, 0.75f);
+    EXPECT_EQ(m.metallic, 0.0f);
+    EXPECT_EQ(m.ior, 0.0f); // F0 = specularColor
+    EXPECT_EQ(m.specularColor, glm::vec3(0.1f, 0.2f, 0.3f));
+    EXPECT_FLOAT_EQ(m.roughness, 0.25f);
+    EXPECT_TRUE(m.isGlossiness);
+}
+
+TEST(GltfMaterial, AlphaModesAreRead) {
+    const Json color = {{"baseColorFactor", {1, 1, 1, 0.25}}};
+    const Material mask =
+        importMaterial({{"alphaMode", "MASK"}, {"alphaCutoff", 0.75}, {"pbrMetallicRoughness", color}});
+    EXPECT_EQ(mask.alphaMode, AlphaMode::mask);
+    EXPECT_EQ(mask.alphaCutoff, 0.75f);
+    EXPECT_EQ(mask.alpha, 0.25f);
+    EXPECT_EQ(importMaterial({{"alphaMode", "BLEND"}}).alphaMode, AlphaMode::blend);
+    EXPECT_EQ(importMaterial({{"alphaMode", "MASK"}}).alphaCutoff, 0.5f);
+    EXPECT_EQ(importMaterial(Json::object()).alphaMode, AlphaMode::opaque);
+}
+
+TEST(GltfMaterial, UnlitSurfaceIsNoLightWhateverItsEmission) {
+    const Scene scene =
+        triangleOf({{"emissiveFactor", {1, 1, 1}}, {"extensions", {{"KHR_materials_unlit", Json::object()}}}})
+            .import();
+    EXPECT_TRUE(scene.materials.at(0).isUnlit);
+    EXPECT_EQ(scene.materials.at(0).emission, glm::vec3(0.0f));
+    EXPECT_EQ(warningsWith(scene, "KHR_materials_unlit"), 0);
 }
 
 TEST(GltfMaterial, GlassExtensionsAreCheckedLikeTheRest) {
@@ -191,34 +251,18 @@ TEST(GltfMaterial, LightOfAMaterialThatNothingWearsIsNoLight) {
     EXPECT_EQ(builder.import().environment, glm::vec3(1.0f));
 }
 
-TEST(GltfMaterial, TexturesAndAlphaAreNamedAsNotRead) {
-    GltfBuilder builder = triangleOf({{"name", "leaf"},
-                                      {"alphaMode", "MASK"},
-                                      {"emissiveFactor", {1, 1, 1}},
-                                      {"emissiveTexture", {{"index", 0}}}});
-    builder.json["textures"] = {Json::object(), Json::object()};
-    builder.json["images"] = {{{"uri", "file:///nowhere.png"}}};
-    const Scene scene = builder.import();
-    EXPECT_EQ(warningsWith(scene, "2 textures ignored"), 1);
-    EXPECT_EQ(
-        warningsWith(scene, "alpha is not read yet, these materials are shown opaque: material 0 \"leaf\""),
-        1);
-    EXPECT_EQ(scene.materials.at(0).emission, glm::vec3(0.0f)); // not all of the leaf glows
-}
-
 TEST(GltfExtensions, UnsupportedOnesWarnOnceEachByTheirExactName) {
     GltfBuilder builder = triangleOf(
-        {{"extensions", {{"KHR_materials_sheen", Json::object()}, {"KHR_materials_ior", Json::object()}}}});
-    builder.json["extensionsUsed"] = {"KHR_materials_clearcoat", "KHR_materials_ior"};
-    builder.json["nodes"][0]["extensions"] = {{"KHR_materials_clearcoat", Json::object()}};
+        {{"extensions", {{"VENDOR_materials_fur", Json::object()}, {"KHR_materials_ior", Json::object()}}}});
+    builder.json["extensionsUsed"] = {"ADOBE_materials_paint", "KHR_materials_ior"};
+    builder.json["nodes"][0]["extensions"] = {{"ADOBE_materials_paint", Json::object()}};
     const Scene scene = builder.import();
-    EXPECT_EQ(warningsWith(scene, "KHR_materials_clearcoat"), 1);
-    EXPECT_EQ(warningsWith(scene, "KHR_materials_sheen"), 1); // in use, though not listed
+    EXPECT_EQ(warningsWith(scene, "ADOBE_materials_paint"), 1);
+    EXPECT_EQ(warningsWith(scene, "VENDOR_materials_fur"), 1); // in use, though not listed
     EXPECT_EQ(warningsWith(scene, "KHR_materials_ior"), 0);
     EXPECT_EQ(scene.ignoredExtensions,
-              (std::vector<std::string>{"KHR_materials_clearcoat", "KHR_materials_sheen"}));
-    EXPECT_EQ(scene.extensionsUsed,
-              (std::vector<std::string>{"KHR_materials_clearcoat", "KHR_materials_ior"}));
+              (std::vector<std::string>{"ADOBE_materials_paint", "VENDOR_materials_fur"}));
+    EXPECT_EQ(scene.extensionsUsed, (std::vector<std::string>{"ADOBE_materials_paint", "KHR_materials_ior"}));
 }
 
 TEST(GltfExtensions, RequiredAndUnsupportedIsAnErrorWithTheExactName) {

@@ -1,0 +1,28 @@
+// Pictures that textures are made of: decoding of PNG, JPEG and WebP.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lavalight {
+
+// Four channels RGBA, rows from the top, values as in the file.
+struct Picture {
+    std::string name; // file or name in the scene, for messages
+    uint32_t width = 0;
+    uint32_t height = 0;
+    bool is16Bit = false;
+    std::vector<uint8_t> bytes; // 4 or, in the machine's byte order, 8 a texel
+};
+
+// The most texels of a picture; 512 MiB of them, or twice that with 16 bits a channel.
+constexpr uint64_t kMostPictureTexels = 134'217'728;
+
+// Decodes the bytes of a PNG, JPEG or WebP file, told apart by their first bytes. Grey becomes RGB, a missing
+// alpha 1. Throws Error, which does not name the picture, for damaged bytes, other formats, and, before
+// anything is allocated, for pictures of too many texels.
+[[nodiscard]] Picture decodePicture(std::string_view bytes);
+
+} // namespace lavalight
