@@ -22,11 +22,13 @@ layout(set = 0, binding = 21, std430) writeonly buffer Out { Answer answers[]; }
 
 // f |cos| / pdf of one sample, for F0 and for F90 alone.
 vec2 sampleTerms(vec2 u, vec3 wo, float alpha) {
-    const vec3 wi = sampleSpecular(u, wo, alpha);
+    const vec3 wi = sampleSpecular(u, wo, vec2(alpha));
     if (wi.z <= 0.0)
         return vec2(0.0);
-    const vec2 f = vec2(evalSpecular(vec3(1.0), 0.0, alpha, wo, wi).x, evalSpecular(vec3(0.0), 1.0, alpha, wo, wi).x);
-    return f / pdfSpecular(alpha, wo, wi);
+    const Film noFilm = Film(0.0, 1.0, 0.0);
+    const vec2 f = vec2(evalSpecular(Specular(vec3(1.0), 0.0, vec2(alpha), noFilm), wo, wi).x,
+                        evalSpecular(Specular(vec3(0.0), 1.0, vec2(alpha), noFilm), wo, wi).x);
+    return f / pdfSpecular(vec2(alpha), wo, wi);
 }
 
 void main() {
