@@ -23,9 +23,9 @@ struct BsdfSample {
 vec3 evalBase(Surface s, vec3 wo, vec3 wi) {
     vec3 value = vec3(0.0);
     if (wi.z > 0.0 && s.diffuse != vec3(0.0))
-        value = evalDiffuse(s.diffuse, wi) * coupling(s, wo.z, wi.z);
+        value = evalDiffuse(s.diffuse, wi) * coupling(s, wo, wi);
     if (wi.z < 0.0 && hasThrough(s))
-        value = evalDiffuseTransmission(s.through, wi) * coupling(s, wo.z, -wi.z);
+        value = evalDiffuseTransmission(s.through, wi) * coupling(s, wo, wi);
     if (isSmooth(s))
         return value;
     if (wi.z > 0.0 && hasSpecular(s))

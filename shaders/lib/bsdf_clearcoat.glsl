@@ -19,10 +19,11 @@ vec3 toClearcoat(Clearcoat c, vec3 w) {
     return toLocal(makeBasis(c.normal), w);
 }
 
-// wo below the coat's horizon gives wi below it.
+// 0: lost, below the horizon of the coat or of the surface.
 vec3 sampleClearcoat(Clearcoat c, vec2 u, vec3 wo) {
     const vec3 o = toClearcoat(c, wo);
-    return toWorld(makeBasis(c.normal), sampleSpecular(u, vec3(o.xy, max(o.z, 1e-4)), vec2(c.alpha)));
+    const vec3 wi = toWorld(makeBasis(c.normal), sampleSpecular(u, vec3(o.xy, max(o.z, 1e-4)), vec2(c.alpha)));
+    return o.z > 0.0 && wi.z > 0.0 ? wi : vec3(0.0);
 }
 
 float evalClearcoat(Clearcoat c, vec3 wo, vec3 wi) {

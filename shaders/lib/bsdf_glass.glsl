@@ -70,10 +70,13 @@ bool isFacetSeen(Glass g, vec3 wo, vec3 wi, vec3 m) {
     return wi.z > 0.0 || g.isThin || dot(wi, m) < 0.0;
 }
 
-// Draws wi; u.xy the facet, v whether it reflects. Smooth glass is a delta lobe: m is the normal.
+// Draws wi; u.xy the facet, v whether it reflects. 0: lost to masking, on the wrong side. Smooth glass is a delta lobe: m is
+// the normal.
 vec3 sampleGlass(Glass g, vec3 wo, vec2 u, float v) {
     const vec3 m = g.alpha.x < kSmoothAlpha ? vec3(0.0, 0.0, 1.0) : squareToVisibleNormal(u, wo, g.alpha);
-    return v < reflectionProbability(glassFresnel(g, dot(wo, m))) ? reflect(-wo, m) : throughFacet(g, wo, m);
+    const bool reflects = v < reflectionProbability(glassFresnel(g, dot(wo, m)));
+    const vec3 wi = reflects ? reflect(-wo, m) : throughFacet(g, wo, m);
+    return reflects == (wi.z > 0.0) ? wi : vec3(0.0);
 }
 
 // f |cos| / pdf of smooth glass, whose wi was drawn.

@@ -17,17 +17,31 @@ float largestOf(vec3 v) {
     return max(v.x, max(v.y, v.z));
 }
 
+// A roughness whose albedo that of an anisotropic coating does not exceed, by the energy test: the one in the azimuth of w
+// (along the normal the geometric mean), and less the more they differ.
+float alphaTowards(Surface s, vec3 w) {
+    if (!sceneHas(kFeatureAnisotropy))
+        return s.specular.alpha.y;
+    const vec2 stretched = s.specular.alpha * w.xy;
+    const float none = 1e-6; // sine^2 below which there is no azimuth
+    const vec2 alpha = s.specular.alpha;
+    const float along2 = (dot(stretched, stretched) + none * alpha.x * alpha.y) / (dot(w.xy, w.xy) + none);
+    return sqrt(along2 * sqrt(alpha.y / max(alpha.x, 1e-20)));
+}
+
+// 1 - E of the coating; the curve that bounds a film may exceed 1 at grazing angles.
+float uncovered(Surface s, vec3 w) {
+    return max(0.0, 1.0 - dot(s.coating, specularAlbedoTerms(w.z, alphaTowards(s, w))));
+}
+
 // Share of light that the dielectric coating lets through to the diffuse base, (1 - E(wo)) (1 - E(wi)) / (1 - Eavg): the
-// base then reflects exactly (1 - E(wo)) * diffuse. Kelemen, Szirmay-Kalos 2001. Of an anisotropic coating the smaller alpha
-// counts, which reflects more at grazing angles.
-float coupling(Surface s, float cosO, float cosI) {
+// base then reflects exactly (1 - E(wo)) * diffuse, or less under an anisotropic coating, whose average is that of its larger
+// alpha at least. Kelemen, Szirmay-Kalos 2001.
+float coupling(Surface s, vec3 wo, vec3 wi) {
     if (!sceneHas(kFeatureSpecular) || s.coating.y <= 0.0)
         return 1.0;
-    const float alpha = s.specular.alpha.y;
-    const float eo = dot(s.coating, specularAlbedoTerms(cosO, alpha));
-    const float ei = dot(s.coating, specularAlbedoTerms(cosI, alpha));
-    const float average = dot(s.coating, specularAlbedoAverage(alpha));
-    return (1.0 - eo) * (1.0 - ei) / max(1.0 - average, 1e-4);
+    const float average = dot(vec2(s.coating.x, min(s.coating.y, 1.0)), specularAlbedoAverage(s.specular.alpha.x));
+    return uncovered(s, wo) * uncovered(s, vec3(wi.xy, abs(wi.z))) / max(1.0 - average, 1e-4);
 }
 
 float clearcoatAlbedo(Clearcoat c, vec3 w) {
@@ -72,10 +86,10 @@ LobeAlbedos baseAlbedos(Surface s, vec3 wo) {
     LobeAlbedos a = LobeAlbedos(s.diffuse, s.through, vec3(0.0), vec3(0.0), s.glassShare, 0.0);
     if (!hasSpecular(s))
         return a;
-    const vec2 terms = specularAlbedoTerms(wo.z, s.specular.alpha.y);
-    const float uncovered = 1.0 - dot(s.coating, terms);
-    a.diffuse *= uncovered;
-    a.through *= uncovered;
+    const vec2 terms = specularAlbedoTerms(wo.z, alphaTowards(s, wo));
+    const float rest = max(0.0, 1.0 - dot(s.coating, terms));
+    a.diffuse *= rest;
+    a.through *= rest;
     a.specular = s.specular.f0 * terms.x + s.specular.f90 * terms.y;
     if (sceneHas(kFeatureIridescence) && s.specular.film.weight > 0.0)
         a.specular = specularFresnel(s.specular, wo.z) * (terms.x + terms.y);

@@ -19,9 +19,10 @@ vec3 specularFresnel(Specular s, float cosTheta) {
     return mix(plain, s.f90 * filmReflectance(s.film, s.f0 / max(s.f90, 1e-6), cosTheta), s.film.weight);
 }
 
-// wi below the horizon (wi.z <= 0) means that the sample is lost to masking.
+// 0: lost to masking, below the horizon.
 vec3 sampleSpecular(vec2 u, vec3 wo, vec2 alpha) {
-    return reflect(-wo, squareToVisibleNormal(u, wo, alpha));
+    const vec3 wi = reflect(-wo, squareToVisibleNormal(u, wo, alpha));
+    return wi.z > 0.0 ? wi : vec3(0.0);
 }
 
 // f * |cos| of mirrors as facets, m halfway between the directions; Walter 2007, eq. 20, with |cos| cancelled against

@@ -42,12 +42,42 @@ float filmTopF0(float filmIor) {
     return r * r;
 }
 
-// The most that any wavelength is reflected along the normal: all reflections in phase.
-vec3 largestFilmReflectance(Film film, vec3 f0) {
+// What a wavelength reflects whose reflections are all in phase: the most that any does.
+vec3 reflectanceInPhase(vec3 top, vec3 base) {
+    return squared((sqrt(top) + sqrt(base)) / (1.0 + sqrt(top * base)));
+}
+
+// The two reflectances of the film, on top and below, under this angle within it.
+struct FilmInterfaces {
+    vec3 top;
+    vec3 base;
     vec3 baseIor;
-    const vec3 r12 = vec3(sqrt(filmTopF0(film.ior)));
-    const vec3 r23 = sqrt(filmBaseF0(film.ior, f0, baseIor));
-    return squared((r12 + r23) / (1.0 + r12 * r23));
+};
+
+FilmInterfaces filmInterfaces(Film film, vec3 f0, float cosTheta, float cosInside) {
+    FilmInterfaces i;
+    i.base = schlick(filmBaseF0(film.ior, f0, i.baseIor), 1.0, cosInside);
+    i.top = schlick(vec3(filmTopF0(film.ior)), 1.0, cosTheta);
+    return i;
+}
+
+// Like Schlick's f0 and f90, a curve that no channel exceeds: through what is reflected in phase along the normal and, unless
+// that is too steep, at 60 degrees. What lies below the film gets the rest.
+struct FilmBound {
+    vec3 f0;
+    vec3 f90;
+};
+
+FilmBound filmBound(Film film, vec3 f0) {
+    const float weight = 0.03125; // Schlick's at 60 degrees
+    const FilmInterfaces normal = filmInterfaces(film, f0, 1.0, 1.0);
+    const FilmInterfaces slanted =
+        filmInterfaces(film, f0, 0.5, sqrt(max(0.0, 1.0 - 0.75 / (film.ior * film.ior))));
+    FilmBound bound;
+    bound.f0 = reflectanceInPhase(normal.top, normal.base);
+    const vec3 there = reflectanceInPhase(slanted.top, slanted.base);
+    bound.f90 = clamp((there - (1.0 - weight) * bound.f0) / weight, 1.0, 2.0);
+    return bound;
 }
 
 // f0: of the base in air, along the normal. Airy's sum over the reflections within the film, to the second order.
@@ -56,16 +86,16 @@ vec3 filmReflectance(Film film, vec3 f0, float cosTheta) {
     if (cos2Inside <= 0.0)
         return vec3(1.0);
     const float cosInside = sqrt(cos2Inside);
-    vec3 baseIor;
-    const vec3 top = schlick(vec3(filmTopF0(film.ior)), 1.0, cosTheta);
-    const vec3 base = schlick(filmBaseF0(film.ior, f0, baseIor), 1.0, cosInside);
+    const FilmInterfaces i = filmInterfaces(film, f0, cosTheta, cosInside);
     // A reflection turns the phase where it meets a denser medium; the film is denser than air.
-    const vec3 shift = kPi * (vec3(1.0) + vec3(lessThan(baseIor, vec3(film.ior))));
-    const vec3 amplitude = sqrt(clamp(top * base, 1e-5, 0.9999));
-    const vec3 returned = squared(1.0 - top) * base / (1.0 - amplitude * amplitude);
+    const vec3 shift = kPi * (vec3(1.0) + vec3(lessThan(i.baseIor, vec3(film.ior))));
+    const vec3 amplitude = sqrt(clamp(i.top * i.base, 1e-5, 0.9999));
+    const vec3 returned = squared(1.0 - i.top) * i.base / (1.0 - amplitude * amplitude);
     const float opd = 2.0 * film.ior * film.thickness * cosInside;
-    const vec3 first = (returned - (1.0 - top)) * amplitude;
-    const vec3 sum = top + returned + 2.0 * first * interferenceColor(opd, shift) +
-                     2.0 * first * amplitude * interferenceColor(2.0 * opd, 2.0 * shift);
-    return clamp(sum, vec3(0.0), schlick(largestFilmReflectance(film, f0), 1.0, cosTheta));
+    const vec3 first = 2.0 * (returned - (1.0 - i.top)) * amplitude;
+    const vec3 sum = i.top + returned + first * interferenceColor(opd, shift) +
+                     first * amplitude * interferenceColor(2.0 * opd, 2.0 * shift);
+    const FilmBound bound = filmBound(film, f0);
+    const vec3 curve = mix(bound.f0, bound.f90, schlickWeight(cosTheta));
+    return clamp(sum, vec3(0.0), min(min(curve, reflectanceInPhase(i.top, i.base)), 1.0));
 }

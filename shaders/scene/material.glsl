@@ -74,8 +74,9 @@ vec2 coatingOf(MaterialRecord material, vec3 dielectricF0, Specular specular) {
     const float opaque = 1.0 - (1.0 - material.metallic) * material.transmission;
     if (!sceneHas(kFeatureIridescence) || specular.film.weight <= 0.0 || opaque <= 0.0)
         return plain;
-    const vec3 f0 = specular.f90 * largestFilmReflectance(specular.film, specular.f0 / max(specular.f90, 1e-6));
-    return vec2(largestOf(mix(specular.f0, f0, specular.film.weight)), specular.f90) / opaque;
+    const FilmBound bound = filmBound(specular.film, specular.f0 / max(specular.f90, 1e-6));
+    const vec2 film = specular.f90 * vec2(largestOf(bound.f0), largestOf(bound.f90));
+    return mix(vec2(largestOf(specular.f0), specular.f90), film, specular.film.weight) / opaque;
 }
 
 // isFront: as above. The frame's x axis is the direction of anisotropy.
