@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "app/material_text.h"
 #include "scene/builtin.h"
 
 namespace lavalight {
@@ -42,6 +43,20 @@ uint64_t geometryBytes(const Scene& scene) {
         for (const std::vector<glm::vec2>& set : mesh.uvs)
             bytes += bytesOf(set);
     }
+    return bytes;
+}
+
+uint64_t texelCount(const Scene& scene) {
+    uint64_t count = 0;
+    for (const Picture& picture : scene.pictures)
+        count += uint64_t{picture.width} * picture.height;
+    return count;
+}
+
+uint64_t pictureBytes(const Scene& scene) {
+    uint64_t bytes = 0;
+    for (const Picture& picture : scene.pictures)
+        bytes += picture.bytes.size();
     return bytes;
 }
 
@@ -89,6 +104,33 @@ std::string listText(const std::vector<std::string>& names) {
     return names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "));
 }
 
+std::string materialText(const Material& material) {
+    std::string text = fmt::format("\"{}\": {}", material.name, listText(lobeNames(material)));
+    if (material.alphaMode != AlphaMode::opaque)
+        text += fmt::format("; alpha {}", alphaModeName(material.alphaMode));
+    if (const std::vector<std::string> textures = textureNames(material); !textures.empty())
+        text += fmt::format("; textures {}", listText(textures));
+    return text;
+}
+
+// A file that requires an extension which is not supported is refused before it comes this far.
+std::string extensionText(const Scene& scene) {
+    std::vector<std::string> texts;
+    for (const std::string& name : scene.extensionsUsed) {
+        const bool isIgnored = std::find(scene.ignoredExtensions.begin(), scene.ignoredExtensions.end(),
+                                         name) != scene.ignoredExtensions.end();
+        texts.push_back(name + (isIgnored ? " (ignored)" : " (supported)"));
+    }
+    return listText(texts);
+}
+
+void printMaterials(const Scene& scene) {
+    for (size_t i = 0; i < scene.materials.size(); ++i)
+        fmt::print("material {:<11} {}\n", i, materialText(scene.materials[i]));
+    for (size_t i = 0; i < scene.variants.size(); ++i)
+        fmt::print("variant {:<12} \"{}\"\n", i, scene.variants[i]);
+}
+
 void printText(const Scene& scene) {
     constexpr double kMebibyte = 1024.0 * 1024.0;
     fmt::print("scene                {}\n", scene.source);
@@ -102,12 +144,18 @@ void printText(const Scene& scene) {
     fmt::print("bounds               {} to {}\n", vectorText(scene.bounds.lower),
                vectorText(scene.bounds.upper));
     fmt::print("geometry memory      {:.3f} MiB\n", static_cast<double>(geometryBytes(scene)) / kMebibyte);
-    fmt::print("extensions used      {}\n", listText(scene.extensionsUsed));
+    fmt::print("textures             {} pictures, {} texels, {:.3f} MiB\n", scene.pictures.size(),
+               texelCount(scene), static_cast<double>(pictureBytes(scene)) / kMebibyte);
+    fmt::print("extensions used      {}\n", extensionText(scene));
     fmt::print("extensions ignored   {}\n", listText(scene.ignoredExtensions));
     for (size_t i = 0; i < scene.cameras.size(); ++i)
         fmt::print("camera {:<13} {}\n", i, cameraText(scene.cameras[i]));
     for (size_t i = 0; i < scene.punctualLights.size(); ++i)
         fmt::print("light {:<14} {}\n", i, lightText(scene.punctualLights[i]));
+    printMaterials(scene);
+    for (size_t i = 0; i < scene.animations.size(); ++i)
+        fmt::print("animation {:<10} \"{}\": {:.6g} s\n", i, scene.animations[i].name,
+                   scene.animations[i].seconds);
     for (const std::string& warning : scene.warnings)
         fmt::print("warning              {}\n", warning);
 }
@@ -148,6 +196,16 @@ nlohmann::ordered_json lightJson(const PunctualLight& light) {
     return json;
 }
 
+nlohmann::ordered_json materialsJson(const Scene& scene) {
+    nlohmann::ordered_json materials = nlohmann::ordered_json::array();
+    for (const Material& material : scene.materials)
+        materials.push_back({{"name", material.name},
+                             {"lobes", lobeNames(material)},
+                             {"alphaMode", alphaModeName(material.alphaMode)},
+                             {"textures", textureNames(material)}});
+    return materials;
+}
+
 nlohmann::ordered_json sceneJson(const Scene& scene) {
     nlohmann::ordered_json cameras = nlohmann::ordered_json::array();
     for (const Camera& camera : scene.cameras)
@@ -155,13 +213,20 @@ nlohmann::ordered_json sceneJson(const Scene& scene) {
     nlohmann::ordered_json lights = nlohmann::ordered_json::array();
     for (const PunctualLight& light : scene.punctualLights)
         lights.push_back(lightJson(light));
+    nlohmann::ordered_json animations = nlohmann::ordered_json::array();
+    for (const Animation& animation : scene.animations)
+        animations.push_back({{"name", animation.name}, {"seconds", animation.seconds}});
     return {
         {"scene", scene.source},
         {"triangles", scene.triangleCount()},
         {"emissiveTriangles", emissiveTriangleCount(scene)},
         {"vertices", vertexCount(scene)},
         {"meshes", scene.meshes.size()},
-        {"materials", scene.materials.size()},
+        {"materials", materialsJson(scene)},
+        {"variants", scene.variants},
+        {"pictures", scene.pictures.size()},
+        {"texels", texelCount(scene)},
+        {"pictureBytes", pictureBytes(scene)},
         {"environment", vectorJson(scene.environment)},
         {"bounds", {{"lower", vectorJson(scene.bounds.lower)}, {"upper", vectorJson(scene.bounds.upper)}}},
         {"geometryBytes", geometryBytes(scene)},
@@ -169,13 +234,14 @@ nlohmann::ordered_json sceneJson(const Scene& scene) {
         {"extensionsIgnored", scene.ignoredExtensions},
         {"cameras", cameras},
         {"punctualLights", lights},
+        {"animations", animations},
         {"warnings", scene.warnings}};
 }
 
 } // namespace
 
 InfoCommand::InfoCommand(CLI::App& app)
-    : Command(app, "info", "What was understood of a scene and what was not") {
+    : Command(app, "info", "What was understood of a scene and what was not"), options_(parser()) {
     parser()
         .add_option("scene", scene_,
                     fmt::format("A .gltf or .glb file, or built in: {}", listText(builtinNames())))
@@ -185,7 +251,7 @@ InfoCommand::InfoCommand(CLI::App& app)
 }
 
 int InfoCommand::run() {
-    const Scene scene = loadScene(scene_);
+    const Scene scene = loadScene(scene_, options_.importOptions());
     if (json_) // names in files need not be valid UTF-8
         fmt::print("{}\n", sceneJson(scene).dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
     else

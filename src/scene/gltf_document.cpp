@@ -120,8 +120,8 @@ Json rootExtensions(const Json& json, const std::string& source) {
 // files or decode images stays out of its sight, because it follows offsets and addresses unchecked.
 tinygltf::Model parseModel(Json& json, const std::string& source) {
     Json part;
-    for (const char* section : {"asset", "accessors", "bufferViews", "cameras", "materials", "meshes",
-                                "nodes", "scene", "scenes"}) {
+    for (const char* section : {"asset", "accessors", "animations", "bufferViews", "cameras", "materials",
+                                "meshes", "nodes", "scene", "scenes", "skins"}) {
         if (json.contains(section))
             part[section] = std::move(json[section]);
     }
@@ -160,10 +160,6 @@ void requireComplete(const GltfDocument& document, const std::vector<size_t>& pr
     }
 }
 
-size_t sizeOf(const Json& json, const char* section) {
-    return json.contains(section) && json.at(section).is_array() ? json.at(section).size() : 0;
-}
-
 } // namespace
 
 GltfDocument parseGltf(std::string_view bytes, const GltfSource& source) {
@@ -173,7 +169,6 @@ GltfDocument parseGltf(std::string_view bytes, const GltfSource& source) {
     document.source = source.name;
     checkVersion(json, source.name);
     sortExtensions(json, document);
-    document.animationCount = sizeOf(json, "animations");
     document.buffers = loadBuffers(json, container.binary, source);
     decodeMeshopt(json, document.buffers, source.name);
     decodeDraco(json, document.buffers, source.name);

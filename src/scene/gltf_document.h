@@ -27,7 +27,6 @@ struct GltfDocument {
     std::vector<GltfTexture> textures;
     std::vector<std::string> variants; // names
     std::optional<int> variant;        // that is to be shown
-    size_t animationCount = 0;
 
     [[nodiscard]] Error error(std::string_view text) const { return gltfError(source, text); }
 };

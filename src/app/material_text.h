@@ -1,0 +1,19 @@
+// What a material is made of, in a few words, for `lavalight info`.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace lavalight {
+
+// Its lobes by name: "metal", "diffuse", "specular", "glass", "thin glass", "clearcoat", ...
+[[nodiscard]] std::vector<std::string> lobeNames(const Material& material);
+
+// Textures it has, by what they are for: "baseColor", "normal", ...
+[[nodiscard]] std::vector<std::string> textureNames(const Material& material);
+
+[[nodiscard]] const char* alphaModeName(AlphaMode mode);
+
+} // namespace lavalight
