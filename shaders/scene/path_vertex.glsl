@@ -7,6 +7,7 @@
 #include "scene/interaction.glsl"
 #include "scene/light.glsl"
 #include "scene/material.glsl"
+#include "scene/textured_material.glsl"
 
 // A vertex of the path with all that its parts ask for.
 struct Vertex {
@@ -132,10 +133,16 @@ NextRays scatter(Hit hit, Ray ray, uint slot, uint bounce, inout Path path) {
         path.radiance += clamped(found, bounce);
         return next;
     }
-    const Interaction surface = makeInteraction(hit, -ray.direction);
-    const MaterialRecord material = fetchMaterial(surface.material);
+    Interaction surface = makeInteraction(hit, -ray.direction);
+    const MaterialRecord material = texturedMaterial(fetchMaterial(surface.material), -ray.direction, surface);
+    if (sceneHas(kFeatureAttenuation) && !surface.isFront && (material.flags & kMaterialSolid) != 0u)
+        path.throughput *= exp(-material.attenuation * hit.t); // Beer-Lambert: the ray came through the inside
 
     // ---- Emission ----
+    if (sceneHas(kFeatureUnlit) && (material.flags & kMaterialUnlit) != 0u) {
+        path.radiance += clamped(path.throughput * material.baseColor, bounce);
+        return next;
+    }
     const vec3 emission = emissionOf(material, surface.isFront);
     if (emission != vec3(0.0))
         path.radiance += clamped(

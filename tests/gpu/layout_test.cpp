@@ -42,6 +42,10 @@ const MaterialRecord kMaterialRecord{
 const LightRecord kLightRecord{1, 2, 3, 4};
 const PunctualRecord kPunctualRecord{{1, 2, 3}, 4, {5, 6, 7}, 8, {9, 10, 11}, 12};
 const LightTreeRecord kLightTreeRecord{{1, 2, 3}, 4, 5, 6, 7, 8};
+const TextureRecord kTextureRecord{{1, 2, 3}, 4, {5, 6, 7}, 8, 9, 10, 11, 12};
+const TriangleUvs kTriangleUvs{{1, 2}, {3, 4}, {5, 6}, {7, 8}};
+const TriangleColors kTriangleColors{{1, 2}, {3, 4}, {5, 6}, {7, 8}};
+const TriangleTangents kTriangleTangents{1, 2, 3, 4};
 
 class LayoutTest : public DeviceTest {
   protected:
@@ -94,6 +98,10 @@ TEST_F(LayoutTest, GlslAndCppLayOutEverySharedStructAlike) {
     input("lights", kLightRecord);
     input("punctuals", kPunctualRecord);
     input("lightTree", kLightTreeRecord);
+    input("textures", kTextureRecord);
+    input("triangleUvs", kTriangleUvs);
+    input("triangleColors", kTriangleColors);
+    input("triangleTangents", kTriangleTangents);
     const gpu::Buffer& ray = output<Ray>("RayOut");
     const gpu::Buffer& hit = output<Hit>("HitOut");
     const gpu::Buffer& path = output<Path>("PathOut");
@@ -110,6 +118,10 @@ TEST_F(LayoutTest, GlslAndCppLayOutEverySharedStructAlike) {
     const gpu::Buffer& light = output<LightRecord>("LightRecordOut");
     const gpu::Buffer& punctual = output<PunctualRecord>("PunctualRecordOut");
     const gpu::Buffer& lightTreeNode = output<LightTreeRecord>("LightTreeRecordOut");
+    const gpu::Buffer& texture = output<TextureRecord>("TextureRecordOut");
+    const gpu::Buffer& uvs = output<TriangleUvs>("TriangleUvsOut");
+    const gpu::Buffer& colors = output<TriangleColors>("TriangleColorsOut");
+    const gpu::Buffer& tangents = output<TriangleTangents>("TriangleTangentsOut");
     runKernel();
     expectSecond(ray, kRay);
     expectSecond(hit, kHit);
@@ -127,6 +139,10 @@ TEST_F(LayoutTest, GlslAndCppLayOutEverySharedStructAlike) {
     expectSecond(light, kLightRecord);
     expectSecond(punctual, kPunctualRecord);
     expectSecond(lightTreeNode, kLightTreeRecord);
+    expectSecond(texture, kTextureRecord);
+    expectSecond(uvs, kTriangleUvs);
+    expectSecond(colors, kTriangleColors);
+    expectSecond(tangents, kTriangleTangents);
 }
 
 } // namespace
