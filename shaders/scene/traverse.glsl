@@ -129,10 +129,11 @@ bool traverse(vec3 origin, vec3 direction, RayFilter ignored, bool any, inout Hi
             }
         }
         bool asked = question.isOpen;
-        if (sceneHas(kFeatureAlpha))
+        if (sceneHas(kFeatureAlpha)) {
             found = answerAlpha(current & kLeafFirstMask, ignored.alphaSeed, question, hit) || found;
-        if (any && found)
-            return true;
+            if (any && found)
+                return true;
+        }
         if (!asked && stack.size == 0u && stack.blocks == 0u)
             return found;
         if (!asked || stack.size == kStackRegisters)
