@@ -1,6 +1,6 @@
 // Which texels a texture shows at a point, in what shares, and texels as numbers.
 // Based on: OpenGL 4.6, section 8.14 (wrap modes and filters, which glTF 2.0 refers to); IEC 61966-2-1 (sRGB).
-#include "shared/scene.h"
+#include "shared/texture.h"
 
 // Two columns and two rows of texels; the share of the second ones.
 struct TexelFootprint {

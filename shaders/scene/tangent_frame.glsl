@@ -2,7 +2,7 @@
 #include "lib/octahedral.glsl"
 #include "lib/onb.glsl"
 #include "shared/bindings.h"
-#include "shared/scene.h"
+#include "shared/texture.h"
 
 layout(set = 0, binding = BINDING_TRIANGLE_TANGENTS) uniform usamplerBuffer triangleTangents; // one a triangle
 

@@ -1,7 +1,7 @@
 // Textures: pictures in one buffer of words, and their value at a point of a triangle.
 #include "lib/texture_filter.glsl"
 #include "shared/bindings.h"
-#include "shared/scene.h"
+#include "shared/texture.h"
 
 layout(set = 0, binding = BINDING_PICTURES) uniform usamplerBuffer pictures;
 layout(set = 0, binding = BINDING_TEXTURES) uniform usamplerBuffer textures; // kTextureTexels each

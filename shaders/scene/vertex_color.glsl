@@ -1,6 +1,6 @@
 // Colours given at the corners of triangles.
 #include "shared/bindings.h"
-#include "shared/scene.h"
+#include "shared/texture.h"
 
 layout(set = 0, binding = BINDING_TRIANGLE_COLORS) uniform usamplerBuffer triangleColors; // kColorTexels a triangle
 

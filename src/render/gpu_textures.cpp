@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "render/octahedral.h"
+#include "shared/bvh.h"
 
 namespace lavalight {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "scene/scene.h"
-#include "shared/scene.h"
+#include "shared/texture.h"
 
 namespace lavalight {
 

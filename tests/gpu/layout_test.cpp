@@ -11,6 +11,7 @@
 #include "shared/bvh.h"
 #include "shared/frame.h"
 #include "shared/scene.h"
+#include "shared/texture.h"
 #include "shared/trace.h"
 #include "shared/wavefront.h"
 #include "support/test_device.h"
