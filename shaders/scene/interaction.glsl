@@ -47,6 +47,21 @@ void addTangentFrame(inout Interaction i) {
     i.bitangent = side * frame.bitangent;
 }
 
+// The frame of the BSDF: z is the shading normal, x the direction of anisotropy, turned counter-clockwise by `rotation`.
+Basis shadingBasis(Interaction i, float rotation) {
+    const Basis any = makeBasis(i.n);
+    if (!sceneHas(kFeatureAnisotropy))
+        return any;
+    const mat2 turn = mat2(cos(rotation), sin(rotation), -sin(rotation), cos(rotation));
+    const vec2 direction = turn * i.anisotropyDirection;
+    const vec3 along = direction.x * i.tangent + direction.y * i.bitangent;
+    const vec3 x = along - dot(along, i.n) * i.n;
+    const float length2 = dot(x, x);
+    if (length2 < 1e-8)
+        return any;
+    return Basis(x * inversesqrt(length2), cross(i.n, x * inversesqrt(length2)), i.n);
+}
+
 // wo: unit vector from the hit back along the ray.
 Interaction makeInteraction(Hit hit, vec3 wo) {
     const LeafTriangle triangle = loadLeafTriangle(hit.leafTriangle);

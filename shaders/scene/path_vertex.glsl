@@ -3,6 +3,7 @@
 #include "lib/mis.glsl"
 #include "lib/onb.glsl"
 #include "lib/roulette.glsl"
+#include "scene/dispersion.glsl"
 #include "scene/frame.glsl"
 #include "scene/interaction.glsl"
 #include "scene/light.glsl"
@@ -103,9 +104,11 @@ Vertex makeVertex(Interaction surface, MaterialRecord material, vec3 wo, SampleK
     Vertex v;
     v.surface = surface;
     v.bsdf = surfaceOf(material, surface.isFront);
-    v.basis = makeBasis(surface.n);
+    v.basis = shadingBasis(surface, material.anisotropyRotation);
+    if (sceneHas(kFeatureClearcoat)) // which normal maps of the base leave alone
+        v.bsdf.clearcoat.normal = toLocal(v.basis, surface.coatNormal);
     v.wo = toLocal(v.basis, wo);
-    v.receiver = sceneHas(kFeatureLightTree) ? packReceiver(surface.n, hasGlass(v.bsdf)) : 0u;
+    v.receiver = sceneHas(kFeatureLightTree) ? packReceiver(surface.n, isTransmissive(v.bsdf)) : 0u;
     v.key = key;
     v.survival = key.vertex < frame.rouletteStart
                      ? 1.0
@@ -134,7 +137,7 @@ NextRays scatter(Hit hit, Ray ray, uint slot, uint bounce, inout Path path) {
         return next;
     }
     Interaction surface = makeInteraction(hit, -ray.direction);
-    const MaterialRecord material = texturedMaterial(fetchMaterial(surface.material), -ray.direction, surface);
+    MaterialRecord material = texturedMaterial(fetchMaterial(surface.material), -ray.direction, surface);
     if (sceneHas(kFeatureAttenuation) && !surface.isFront && (material.flags & kMaterialSolid) != 0u)
         path.throughput *= exp(-material.attenuation * hit.t); // Beer-Lambert: the ray came through the inside
 
@@ -150,7 +153,10 @@ NextRays scatter(Hit hit, Ray ray, uint slot, uint bounce, inout Path path) {
     next.isCut = bounce >= frame.maxBounces;
     if (next.isCut)
         return next;
-    const Vertex vertex = makeVertex(surface, material, -ray.direction, keyOfSlot(slot, bounce + 1u));
+    const SampleKey key = keyOfSlot(slot, bounce + 1u);
+    if (sceneHas(kFeatureDispersion) && isDispersive(material))
+        chooseChannel(sample1D(key, kDimensionChannel), path, material);
+    const Vertex vertex = makeVertex(surface, material, -ray.direction, key);
 
     // ---- Next-event estimation ----
     if (kNee != 0u && frame.lightColumns > 0u && hasNonDelta(vertex.bsdf))

@@ -14,20 +14,42 @@ bool has(const Material& material, TextureSlot slot) {
     return material.texture(slot).has_value();
 }
 
-// Of its specular and glass lobes. Textures make metals of nothing and nothing of metals, but a mirror never
-// rougher, nor what is rough without a texture smoother.
-uint32_t lobesOf(const Material& material) {
+// A texture makes a rough lobe smooth at some points; a smooth one it leaves smooth.
+uint32_t lobeOf(float roughness, bool isTextured) {
+    const bool isSmooth = roughness * roughness < kSmoothAlpha;
+    return (isSmooth || isTextured ? kFeatureSmoothLobes : 0u) | (isSmooth ? 0u : kFeatureRoughLobes);
+}
+
+// A texture makes no metal of what is none, but other things of metals.
+bool isGlass(const Material& material) {
     const bool isMetal = material.metallic >= 1.0f && !has(material, TextureSlot::metallicRoughness);
+    return !isMetal && material.transmission > 0.0f;
+}
+
+// Of the specular and the glass lobe.
+uint32_t lobesOf(const Material& material) {
     const bool isSpecular = material.metallic > 0.0f || material.specular > 0.0f;
-    const bool isGlass = !isMetal && material.transmission > 0.0f;
-    if (!isSpecular && !isGlass)
+    if (!isSpecular && !isGlass(material))
         return 0;
-    const bool isSmooth = material.roughness * material.roughness < kSmoothAlpha;
-    const bool isGlossiness = material.isGlossiness && has(material, TextureSlot::specularColor);
-    const bool mayBeSmooth = isSmooth || has(material, TextureSlot::metallicRoughness);
-    const bool mayBeRough = !isSmooth || isGlossiness;
-    return (isSpecular ? kFeatureSpecular : 0u) | (isGlass ? kFeatureGlass : 0u) |
-           (mayBeSmooth ? kFeatureSmoothLobes : 0u) | (mayBeRough ? kFeatureRoughLobes : 0u);
+    uint32_t features = (isSpecular ? kFeatureSpecular : 0u) | (isGlass(material) ? kFeatureGlass : 0u);
+    features |= lobeOf(material.roughness, has(material, TextureSlot::metallicRoughness));
+    if (material.isGlossiness && has(material, TextureSlot::specularColor))
+        features |= kFeatureRoughLobes | kFeatureSmoothLobes;
+    return features;
+}
+
+// Of the layers and lobes that extensions add.
+uint32_t extendedLobesOf(const Material& material) {
+    uint32_t features = 0;
+    if (material.clearcoat > 0.0f)
+        features |= kFeatureClearcoat |
+                    lobeOf(material.clearcoatRoughness, has(material, TextureSlot::clearcoatRoughness));
+    features |= material.sheenColor != glm::vec3(0.0f) ? kFeatureSheen : 0u;
+    features |= material.anisotropy > 0.0f ? kFeatureAnisotropy | kFeatureRoughLobes : 0u;
+    features |= material.iridescence > 0.0f ? kFeatureIridescence : 0u;
+    features |= material.diffuseTransmission > 0.0f ? kFeatureDiffuseTransmission : 0u;
+    features |= isGlass(material) && material.isSolid && material.dispersion > 0.0f ? kFeatureDispersion : 0u;
+    return features;
 }
 
 bool attenuates(const Material& material) {
@@ -41,7 +63,7 @@ bool wantsTangents(const Material& material) {
 }
 
 uint32_t featuresOf(const Material& material) {
-    uint32_t features = lobesOf(material);
+    uint32_t features = lobesOf(material) | extendedLobesOf(material);
     features |= textureSlots(material) != 0 ? kFeatureTextures : 0u;
     features |= wantsTangents(material) ? kFeatureTangents : 0u;
     features |= material.isUnlit ? kFeatureUnlit : 0u;
