@@ -48,9 +48,9 @@ void addTangentFrame(inout Interaction i) {
 }
 
 // The frame of the BSDF: z is the shading normal, x the direction of anisotropy, turned counter-clockwise by `rotation`.
-Basis shadingBasis(Interaction i, float rotation) {
+Basis shadingBasis(Interaction i, float anisotropy, float rotation) {
     const Basis any = makeBasis(i.n);
-    if (!sceneHas(kFeatureAnisotropy))
+    if (!sceneHas(kFeatureAnisotropy) || anisotropy == 0.0)
         return any;
     const mat2 turn = mat2(cos(rotation), sin(rotation), -sin(rotation), cos(rotation));
     const vec2 direction = turn * i.anisotropyDirection;

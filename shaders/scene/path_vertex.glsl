@@ -104,7 +104,7 @@ Vertex makeVertex(Interaction surface, MaterialRecord material, vec3 wo, SampleK
     Vertex v;
     v.surface = surface;
     v.bsdf = surfaceOf(material, surface.isFront);
-    v.basis = shadingBasis(surface, material.anisotropyRotation);
+    v.basis = shadingBasis(surface, material.anisotropy, material.anisotropyRotation);
     if (sceneHas(kFeatureClearcoat)) // which normal maps of the base leave alone
         v.bsdf.clearcoat.normal = toLocal(v.basis, surface.coatNormal);
     v.wo = toLocal(v.basis, wo);
