@@ -10,6 +10,6 @@ void main() {
         return;
     const uint slot = queues[shadowQueueStart(frame.waveSize) + gl_GlobalInvocationID.x];
     const ShadowRay ray = shadowRays[slot];
-    if (!isOccluded(ray))
+    if (!isOccluded(ray, slot, range.bounce))
         paths[slot].radiance += ray.contribution;
 }

@@ -10,5 +10,5 @@ void main() {
     if (gl_GlobalInvocationID.x >= counters[range.bounce].rays)
         return;
     const uint slot = queues[rayQueueStart(range.bounce, frame.waveSize) + gl_GlobalInvocationID.x];
-    hits[slot] = trace(rays[slot], range.bounce);
+    hits[slot] = trace(rays[slot], slot, range.bounce);
 }

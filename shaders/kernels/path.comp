@@ -40,10 +40,10 @@ void main() {
             lane.ray = cameraRayOf(lane.slot);
             path = kNewPath;
         }
-        const Hit hit = trace(lane.ray, lane.bounce);
+        const Hit hit = trace(lane.ray, lane.slot, lane.bounce);
         const NextRays next = scatter(hit, lane.ray, lane.slot, lane.bounce, path);
         shadowRays += next.wantsShadowRay ? 1u : 0u;
-        if (next.wantsShadowRay && !isOccluded(next.shadow))
+        if (next.wantsShadowRay && !isOccluded(next.shadow, lane.slot, lane.bounce))
             path.radiance += next.shadow.contribution;
         cutPaths += next.isCut ? 1u : 0u;
         cutThroughput += next.isCut ? fixedThroughput(path.throughput) : 0u;

@@ -13,7 +13,7 @@ void main() {
         return;
     const Ray ray = rays[i];
     Hit hit;
-    if (intersectClosest(ray.origin, ray.direction, kInfinity, RayFilter(false, ray.fromTriangle, kNoTriangle), hit))
+    if (intersectClosest(ray.origin, ray.direction, kInfinity, RayFilter(false, ray.fromTriangle, kNoTriangle, 0u), hit))
         hits[i] = TracedHit(hit.t, loadLeafTriangle(hit.leafTriangle).triangle);
     else
         hits[i] = TracedHit(kInfinity, kNoTriangle);

@@ -3,6 +3,7 @@
 #include "lib/octahedral.glsl"
 #include "lib/ray_offset.glsl"
 #include "scene/leaf_triangle.glsl"
+#include "scene/tangent_frame.glsl"
 #include "shared/bindings.h"
 #include "shared/scene.h"
 #include "shared/wavefront.h"
@@ -19,6 +20,13 @@ struct Interaction {
     uint triangle; // id
     uint emitter;  // or kNoEmitter
     uint material;
+    vec3 b;        // barycentrics
+    // With kFeatureTangents, all flipped with ng:
+    vec3 tangent;     // unit length, towards growing u
+    vec3 bitangent;
+    vec3 meshNormal;  // n before normal maps
+    vec3 coatNormal;  // n of the clear coat
+    vec2 anisotropyDirection; // in units of tangent and bitangent
 };
 
 vec3 shadingNormal(LeafTriangle triangle, vec3 b, vec3 ng) {
@@ -29,6 +37,29 @@ vec3 shadingNormal(LeafTriangle triangle, vec3 b, vec3 ng) {
                    b.z * decodeOctahedral(packedNormals.z);
     const float length2 = dot(n, n);
     return length2 > 1e-12 ? n * inversesqrt(length2) : ng; // opposite corner normals cancel: keep the plane's
+}
+
+// The frame for normal maps, on the side of wo.
+void addTangentFrame(inout Interaction i) {
+    const float side = i.isFront ? 1.0 : -1.0;
+    const Basis frame = tangentFrame(i.triangle, i.b, side * i.n);
+    i.tangent = side * frame.tangent;
+    i.bitangent = side * frame.bitangent;
+}
+
+// The frame of the BSDF: z is the shading normal, x the direction of anisotropy, turned counter-clockwise by `rotation`.
+Basis shadingBasis(Interaction i, float anisotropy, float rotation) {
+    const Basis any = makeBasis(i.n);
+    if (!sceneHas(kFeatureAnisotropy) || anisotropy == 0.0)
+        return any;
+    const mat2 turn = mat2(cos(rotation), sin(rotation), -sin(rotation), cos(rotation));
+    const vec2 direction = turn * i.anisotropyDirection;
+    const vec3 along = direction.x * i.tangent + direction.y * i.bitangent;
+    const vec3 x = along - dot(along, i.n) * i.n;
+    const float length2 = dot(x, x);
+    if (length2 < 1e-8)
+        return any;
+    return Basis(x * inversesqrt(length2), cross(i.n, x * inversesqrt(length2)), i.n);
 }
 
 // wo: unit vector from the hit back along the ray.
@@ -55,5 +86,11 @@ Interaction makeInteraction(Hit hit, vec3 wo) {
     i.triangle = triangle.triangle;
     i.emitter = triangle.emitter;
     i.material = triangle.material & kMaterialMask;
+    i.b = b;
+    i.tangent = i.bitangent = vec3(0.0);
+    i.meshNormal = i.coatNormal = i.n;
+    i.anisotropyDirection = vec2(1.0, 0.0);
+    if (sceneHas(kFeatureTangents))
+        addTangentFrame(i);
     return i;
 }

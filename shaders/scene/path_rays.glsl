@@ -14,13 +14,18 @@ Ray cameraRayOf(uint slot) {
 
 // The closest hit; t is infinite where there is none. glTF's back-face culling is for the camera alone: light transport
 // needs closed surfaces.
-Hit trace(Ray ray, uint bounce) {
+Hit trace(Ray ray, uint slot, uint bounce) {
+    const RayFilter ignored = RayFilter(bounce == 0u, ray.fromTriangle, kNoTriangle,
+                                        alphaSeed(keyOfSlot(slot, bounce), kDimensionAlpha));
     Hit hit;
-    if (!intersectClosest(ray.origin, ray.direction, kInfinity, RayFilter(bounce == 0u, ray.fromTriangle, kNoTriangle), hit))
+    if (!intersectClosest(ray.origin, ray.direction, kInfinity, ignored, hit))
         hit.t = kInfinity;
     return hit;
 }
 
-bool isOccluded(ShadowRay ray) {
-    return intersectAny(ray.origin, ray.direction, 1.0, RayFilter(false, ray.fromTriangle, ray.toTriangle));
+// Of the vertex after `bounce` others.
+bool isOccluded(ShadowRay ray, uint slot, uint bounce) {
+    const RayFilter ignored = RayFilter(false, ray.fromTriangle, ray.toTriangle,
+                                        alphaSeed(keyOfSlot(slot, bounce + 1u), kDimensionShadowAlpha));
+    return intersectAny(ray.origin, ray.direction, 1.0, ignored);
 }

@@ -8,6 +8,7 @@
 #include "scene/interaction.glsl"
 #include "scene/light.glsl"
 #include "scene/material.glsl"
+#include "scene/textured_material.glsl"
 
 // A vertex of the path with all that its parts ask for.
 struct Vertex {
@@ -103,9 +104,9 @@ Vertex makeVertex(Interaction surface, MaterialRecord material, vec3 wo, SampleK
     Vertex v;
     v.surface = surface;
     v.bsdf = surfaceOf(material, surface.isFront);
-    v.basis = makeBasis(surface.n);
-    if (sceneHas(kFeatureAnisotropy)) // seen from behind, the other way round
-        v.basis = turnedBasis(v.basis, surface.isFront ? material.anisotropyRotation : -material.anisotropyRotation);
+    v.basis = shadingBasis(surface, material.anisotropy, material.anisotropyRotation);
+    if (sceneHas(kFeatureClearcoat)) // which normal maps of the base leave alone
+        v.bsdf.clearcoat.normal = toLocal(v.basis, surface.coatNormal);
     v.wo = toLocal(v.basis, wo);
     v.receiver = sceneHas(kFeatureLightTree) ? packReceiver(surface.n, isTransmissive(v.bsdf)) : 0u;
     v.key = key;
@@ -135,10 +136,16 @@ NextRays scatter(Hit hit, Ray ray, uint slot, uint bounce, inout Path path) {
         path.radiance += clamped(found, bounce);
         return next;
     }
-    const Interaction surface = makeInteraction(hit, -ray.direction);
-    MaterialRecord material = fetchMaterial(surface.material);
+    Interaction surface = makeInteraction(hit, -ray.direction);
+    MaterialRecord material = texturedMaterial(fetchMaterial(surface.material), -ray.direction, surface);
+    if (sceneHas(kFeatureAttenuation) && !surface.isFront && (material.flags & kMaterialSolid) != 0u)
+        path.throughput *= exp(-material.attenuation * hit.t); // Beer-Lambert: the ray came through the inside
 
     // ---- Emission ----
+    if (sceneHas(kFeatureUnlit) && (material.flags & kMaterialUnlit) != 0u) {
+        path.radiance += clamped(path.throughput * material.baseColor, bounce);
+        return next;
+    }
     const vec3 emission = emissionOf(material, surface.isFront);
     if (emission != vec3(0.0))
         path.radiance += clamped(

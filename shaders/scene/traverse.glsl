@@ -5,6 +5,7 @@
 #include "lib/constants.glsl"
 #include "lib/ray_box.glsl"
 #include "lib/ray_triangle.glsl"
+#include "scene/alpha_question.glsl"
 #include "scene/leaf_triangle.glsl"
 #include "scene/traversal_stack.glsl"
 #include "shared/bindings.h"
@@ -57,6 +58,7 @@ struct RayFilter {
     bool cullBackFaces;   // the backs of single-sided triangles, as camera rays do
     uint firstTriangle;   // ids, or kNoTriangle
     uint secondTriangle;
+    uint alphaSeed;       // of its decisions where surfaces may let it through: scene/alpha.glsl
 };
 
 bool passesThrough(RayFilter ignored, LeafTriangle triangle, bool front) {
@@ -65,8 +67,8 @@ bool passesThrough(RayFilter ignored, LeafTriangle triangle, bool front) {
     return ignored.cullBackFaces && !front && (triangle.material & kNeverCulledBit) == 0u;
 }
 
-// Shortens hit.t where one of a leaf's triangles is hit before it.
-bool intersectLeaf(ShearedRay ray, uint leaf, RayFilter ignored, inout Hit hit) {
+// Shortens hit.t where one of a leaf's triangles is hit before it, or asks whether one lets the ray through.
+bool intersectLeaf(ShearedRay ray, uint leaf, RayFilter ignored, inout AlphaQuestion question, inout Hit hit) {
     uint first = leaf & kLeafFirstMask;
     uint end = first + ((leaf >> kLeafCountShift) & kLeafCountMask);
     bool found = false;
@@ -77,6 +79,10 @@ bool intersectLeaf(ShearedRay ray, uint leaf, RayFilter ignored, inout Hit hit) 
         if (!intersectTriangle(ray, triangle.v0, triangle.v1, triangle.v2, hit.t, candidate) ||
             passesThrough(ignored, triangle, candidate.front))
             continue;
+        if (sceneHas(kFeatureAlpha) && (triangle.material & kAlphaBit) != 0u) {
+            askAlpha(Hit(candidate.t, i, candidate.barycentrics), first, question);
+            continue;
+        }
         hit = Hit(candidate.t, i, candidate.barycentrics);
         found = true;
     }
@@ -93,8 +99,9 @@ bool traverse(vec3 origin, vec3 direction, RayFilter ignored, bool any, inout Hi
     Siblings siblings = Siblings(0u, kNobody);
     uint current = 0u; // a node, a leaf, or, as an empty leaf, nothing
     bool found = false;
+    AlphaQuestion question = kNoQuestion;
     while (true) {
-        while (stack.size < kStackRegisters) {
+        while (stack.size < kStackRegisters && !question.isOpen) {
             if ((current & kLeafBit) == 0u) {
                 visited.nodes += kCountVisits ? 1u : 0u;
                 BvhNode node = loadNode(current);
@@ -107,9 +114,12 @@ bool traverse(vec3 origin, vec3 direction, RayFilter ignored, bool any, inout Hi
                 current = keys.x != kMissed ? childReference(node.children, keys.x & 3u) : kEmptyLeaf;
             }
             if ((current & kLeafBit) != 0u) {
-                found = intersectLeaf(sheared, current, ignored, hit) || found;
+                found = intersectLeaf(sheared, current, ignored, question, hit) || found;
                 if (any && found)
                     return true;
+                if (question.isOpen)
+                    continue; // and then once more through this leaf
+                question.passed = 0u;
                 while (!anyWaitsBefore(siblings, hit.t) && stack.size > 0u)
                     siblings = pop(stack);
                 current = kEmptyLeaf;
@@ -118,9 +128,16 @@ bool traverse(vec3 origin, vec3 direction, RayFilter ignored, bool any, inout Hi
                 current = childReference(loadChildren(siblings.parent), takeNext(siblings));
             }
         }
-        if (stack.size == 0u && stack.blocks == 0u)
+        bool asked = question.isOpen;
+        if (sceneHas(kFeatureAlpha)) {
+            found = answerAlpha(current & kLeafFirstMask, ignored.alphaSeed, question, hit) || found;
+            if (any && found)
+                return true;
+        }
+        if (!asked && stack.size == 0u && stack.blocks == 0u)
             return found;
-        exchange(stack);
+        if (!asked || stack.size == kStackRegisters)
+            exchange(stack);
     }
 }
 

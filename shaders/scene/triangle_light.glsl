@@ -2,9 +2,11 @@
 #include "lib/ray_offset.glsl"
 #include "lib/spherical_triangle.glsl"
 #include "lib/warp.glsl"
+#include "scene/alpha.glsl"
 #include "scene/leaf_triangle.glsl"
 #include "scene/light_sample.glsl"
 #include "scene/material.glsl"
+#include "scene/texture.glsl"
 #include "shared/scene.h"
 
 // By area, the variance grows with how much distance and cosine change over the triangle: seen under less than this, in
@@ -43,6 +45,18 @@ vec3 barycentricsOf(LeafTriangle t, vec3 from, vec3 wi) {
     return b / (b.x + b.y + b.z);
 }
 
+// Radiance that leaves barycentrics b of the triangle to a side, as much of it as alpha lets be.
+vec3 emissionAt(LeafTriangle t, vec3 b, bool isFront) {
+    const MaterialRecord material = fetchMaterial(t.material & kMaterialMask);
+    vec3 emission = emissionOf(material, isFront);
+    if (sceneHas(kFeatureTextures) && hasTexture(material.textureSlots, kSlotEmission))
+        emission *=
+            textureAt(textureIndex(material.firstTexture, material.textureSlots, kSlotEmission), t.triangle, b).rgb;
+    if (sceneHas(kFeatureAlpha) && (t.material & kAlphaBit) != 0u)
+        emission *= coverageAt(t, b);
+    return emission;
+}
+
 LightSample sampleTriangleLight(vec3 from, vec2 u, uint leafTriangle) {
     const LeafTriangle t = loadLeafTriangle(leafTriangle);
     vec3 b;
@@ -64,7 +78,7 @@ LightSample sampleTriangleLight(vec3 from, vec2 u, uint leafTriangle) {
     light.wi = d * inversesqrt(distance2);
     const float cosLight = -dot(light.wi, ng);
     light.end = offsetOrigin(p, hitPointError(b, t.v0, t.v1, t.v2), ng, -light.wi);
-    light.radiance = emissionOf(fetchMaterial(t.material & kMaterialMask), cosLight > 0.0);
+    light.radiance = emissionAt(t, b, cosLight > 0.0);
     light.pdf = triangleLightPdf(t, from, 0.5 * twiceArea, distance2, cosLight);
     light.isDelta = false;
     light.triangle = t.triangle;

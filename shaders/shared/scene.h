@@ -48,7 +48,7 @@ struct MaterialRecord {
     float iridescence;
     float iridescenceIor;
     float iridescenceThicknessMinimum;
-    float iridescenceThicknessMaximum;
+    float iridescenceThicknessMaximum; // after texturing: the thickness
     float diffuseTransmission;
     float unused[2];
     vec3 diffuseTransmissionColor;

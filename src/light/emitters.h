@@ -20,8 +20,9 @@ struct Emitters {
     std::vector<uint32_t> emitterOfTriangle; // per triangle of the scene: index into `list` or kNoEmitter
 };
 
-// Lists triangles of emissive materials whose area and power are positive. Throws Error, naming the material,
-// for a power that is not finite.
+// Lists triangles of emissive materials whose area and power are positive; where there is a texture, its mean
+// over the triangle counts, and a triangle that shows black alone is none. Unlit surfaces are no lights.
+// Throws Error, naming the material, for a power that is not finite.
 [[nodiscard]] Emitters findEmitters(const Scene& scene);
 
 } // namespace lavalight

@@ -30,6 +30,11 @@ GpuScene::GpuScene(gpu::Device& device, const SceneData& data)
       lights_(uploadTexels(device, "lights", data.lights)),
       punctuals_(uploadTexels(device, "punctual lights", data.punctuals)),
       lightTree_(uploadTexels(device, "light tree", data.lightTree)),
+      pictures_(uploadTexels(device, "pictures", data.textures.pictures)),
+      textures_(uploadTexels(device, "textures", data.textures.records)),
+      uvs_(uploadTexels(device, "texture coordinates", data.uvs)),
+      colors_(uploadTexels(device, "vertex colours", data.colors)),
+      tangents_(uploadTexels(device, "tangents", data.tangents)),
       albedoTable_(albedoTableFor(device, data.features)) {}
 
 void GpuScene::addTo(gpu::ResourceTable& resources) const {
@@ -40,12 +45,18 @@ void GpuScene::addTo(gpu::ResourceTable& resources) const {
     resources.set("lights", lights_);
     resources.set("punctuals", punctuals_);
     resources.set("lightTree", lightTree_);
+    resources.set("pictures", pictures_);
+    resources.set("textures", textures_);
+    resources.set("triangleUvs", uvs_);
+    resources.set("triangleColors", colors_);
+    resources.set("triangleTangents", tangents_);
     resources.set("albedoTable", albedoTable_);
 }
 
 uint64_t GpuScene::bytes() const {
     return nodes_.bytes() + leafTriangles_.bytes() + normals_.bytes() + materials_.bytes() + lights_.bytes() +
-           punctuals_.bytes() + lightTree_.bytes() + albedoTable_.bytes();
+           punctuals_.bytes() + lightTree_.bytes() + pictures_.bytes() + textures_.bytes() + uvs_.bytes() +
+           colors_.bytes() + tangents_.bytes() + albedoTable_.bytes();
 }
 
 } // namespace lavalight

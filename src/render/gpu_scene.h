@@ -1,4 +1,5 @@
-// A scene on the device: BVH, triangles, normals, materials and lights, each uploaded once.
+// A scene on the device: BVH, triangles and their attributes, materials, textures and lights, each uploaded
+// once.
 #pragma once
 
 #include <cstdint>
@@ -29,6 +30,11 @@ class GpuScene {
     gpu::Buffer lights_;
     gpu::Buffer punctuals_;
     gpu::Buffer lightTree_;
+    gpu::Buffer pictures_;
+    gpu::Buffer textures_;
+    gpu::Buffer uvs_;
+    gpu::Buffer colors_;
+    gpu::Buffer tangents_;
     gpu::Buffer albedoTable_;
 };
 

@@ -13,8 +13,9 @@ namespace lavalight {
 namespace {
 
 gpu::Kernel makeKernel(const gpu::Device& device, std::string_view name, bool countsVisits) {
-    const std::array<gpu::SpecialisationConstant, 1> constants{
-        {{CONSTANT_COUNT_VISITS, countsVisits ? 1u : 0u}}};
+    // No features: all surfaces are opaque to these rays.
+    const std::array<gpu::SpecialisationConstant, 2> constants{
+        {{CONSTANT_COUNT_VISITS, countsVisits ? 1u : 0u}, {CONSTANT_FEATURES, 0u}}};
     return {device, kernels::find(name), constants};
 }
 

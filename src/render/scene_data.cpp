@@ -6,12 +6,15 @@
 #include "render/gpu_lights.h"
 #include "render/octahedral.h"
 #include "render/scene_features.h"
+#include "scene/coverage.h"
 
 namespace lavalight {
 namespace {
 
-uint32_t materialWord(const Mesh& mesh, const Material& material) {
+uint32_t materialWord(const Mesh& mesh, const Material& material, bool isTransparent) {
     uint32_t word = mesh.material;
+    if (isTransparent)
+        word |= kAlphaBit;
     if (mesh.normals.empty())
         word |= kFlatBit;
     if (material.doubleSided || (material.isSolid && material.transmission > 0.0f))
@@ -23,8 +26,12 @@ uint32_t materialWord(const Mesh& mesh, const Material& material) {
 std::vector<uint32_t> materialWords(const Scene& scene) {
     std::vector<uint32_t> words;
     words.reserve(scene.triangleCount());
-    for (const Mesh& mesh : scene.meshes)
-        words.insert(words.end(), mesh.triangles.size(), materialWord(mesh, scene.materials[mesh.material]));
+    const std::vector<bool> transparent = transparentMeshes(scene);
+    for (size_t i = 0; i < scene.meshes.size(); ++i) {
+        const Mesh& mesh = scene.meshes[i];
+        words.insert(words.end(), mesh.triangles.size(),
+                     materialWord(mesh, scene.materials[mesh.material], transparent[i]));
+    }
     return words;
 }
 
@@ -95,11 +102,27 @@ MaterialRecord packMaterial(const Material& m) {
     return r;
 }
 
-std::vector<MaterialRecord> packMaterials(const Scene& scene) {
+// firstTextures: per material; empty: no textures are looked up.
+std::vector<MaterialRecord> packMaterials(const Scene& scene, std::span<const uint32_t> firstTextures) {
     std::vector<MaterialRecord> packed;
     for (const Material& material : scene.materials)
         packed.push_back(packMaterial(material));
+    for (size_t i = 0; i < firstTextures.size(); ++i) {
+        packed[i].textureSlots = textureSlots(scene.materials[i]);
+        packed[i].firstTexture = firstTextures[i];
+    }
     return packed;
+}
+
+void packSurfaceDetail(const Scene& scene, SceneData& data) {
+    if ((data.features & kFeatureTextures) != 0) {
+        data.textures = packTextures(scene);
+        data.uvs = packUvs(scene);
+    }
+    if ((data.features & kFeatureVertexColors) != 0)
+        data.colors = packColors(scene);
+    if ((data.features & kFeatureTangents) != 0)
+        data.tangents = packTangents(scene);
 }
 
 } // namespace
@@ -107,14 +130,15 @@ std::vector<MaterialRecord> packMaterials(const Scene& scene) {
 SceneData packScene(const Scene& scene, const Lights& lights) {
     const std::vector<Triangle> triangles = sceneTriangles(scene);
     SceneData data;
+    data.features = sceneFeatures(scene, lights);
+    packSurfaceDetail(scene, data);
     data.bvh = buildBvh(triangles);
     data.leafTriangles = packLeafTriangles(data.bvh, triangles, lights.emitters, materialWords(scene));
     data.normals = packNormals(scene);
-    data.materials = packMaterials(scene);
+    data.materials = packMaterials(scene, data.textures.firstRecords);
     data.lights = packLights(lights, data.bvh);
     data.punctuals = packPunctuals(scene, lights);
     data.lightTree = packLightTree(lights.tree, scene.bounds.radius());
-    data.features = sceneFeatures(scene, lights);
     return data;
 }
 

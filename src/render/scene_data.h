@@ -6,6 +6,7 @@
 
 #include "accel/bvh.h"
 #include "light/lights.h"
+#include "render/gpu_textures.h"
 #include "scene/scene.h"
 #include "shared/bvh.h"
 #include "shared/scene.h"
@@ -20,6 +21,11 @@ struct SceneData {
     std::vector<LightRecord> lights;
     std::vector<PunctualRecord> punctuals;
     std::vector<LightTreeRecord> lightTree;
+    // Empty where the scene has no such feature:
+    PackedTextures textures;
+    std::vector<TriangleUvs> uvs;
+    std::vector<TriangleColors> colors;
+    std::vector<TriangleTangents> tangents;
     uint32_t features; // kFeature...
 };
 

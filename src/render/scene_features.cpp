@@ -1,34 +1,79 @@
 #include "render/scene_features.h"
 
+#include <algorithm>
+#include <vector>
+
+#include "render/gpu_textures.h"
+#include "scene/coverage.h"
 #include "shared/scene.h"
 
 namespace lavalight {
 namespace {
 
-uint32_t lobeOf(float roughness) {
-    return roughness * roughness < kSmoothAlpha ? kFeatureSmoothLobes : kFeatureRoughLobes;
+bool has(const Material& material, TextureSlot slot) {
+    return material.texture(slot).has_value();
+}
+
+// A texture makes a rough lobe smooth at some points; a smooth one it leaves smooth.
+uint32_t lobeOf(float roughness, bool isTextured) {
+    const bool isSmooth = roughness * roughness < kSmoothAlpha;
+    return (isSmooth || isTextured ? kFeatureSmoothLobes : 0u) | (isSmooth ? 0u : kFeatureRoughLobes);
+}
+
+// A texture makes no metal of what is none, but other things of metals.
+bool isGlass(const Material& material) {
+    const bool isMetal = material.metallic >= 1.0f && !has(material, TextureSlot::metallicRoughness);
+    return !isMetal && material.transmission > 0.0f;
+}
+
+// Of the specular and the glass lobe.
+uint32_t lobesOf(const Material& material) {
+    const bool isSpecular = material.metallic > 0.0f || material.specular > 0.0f;
+    if (!isSpecular && !isGlass(material))
+        return 0;
+    uint32_t features = (isSpecular ? kFeatureSpecular : 0u) | (isGlass(material) ? kFeatureGlass : 0u);
+    features |= lobeOf(material.roughness, has(material, TextureSlot::metallicRoughness));
+    if (material.isGlossiness && has(material, TextureSlot::specularColor))
+        features |= kFeatureRoughLobes | kFeatureSmoothLobes;
+    return features;
 }
 
 // Of the layers and lobes that extensions add.
-uint32_t extendedFeaturesOf(const Material& material) {
-    const bool isGlass = material.metallic < 1.0f && material.transmission > 0.0f;
-    uint32_t features =
-        material.clearcoat > 0.0f ? kFeatureClearcoat | lobeOf(material.clearcoatRoughness) : 0u;
+uint32_t extendedLobesOf(const Material& material) {
+    uint32_t features = 0;
+    if (material.clearcoat > 0.0f)
+        features |= kFeatureClearcoat |
+                    lobeOf(material.clearcoatRoughness, has(material, TextureSlot::clearcoatRoughness));
     features |= material.sheenColor != glm::vec3(0.0f) ? kFeatureSheen : 0u;
     features |= material.anisotropy > 0.0f ? kFeatureAnisotropy | kFeatureRoughLobes : 0u;
     features |= material.iridescence > 0.0f ? kFeatureIridescence : 0u;
     features |= material.diffuseTransmission > 0.0f ? kFeatureDiffuseTransmission : 0u;
-    features |= isGlass && material.isSolid && material.dispersion > 0.0f ? kFeatureDispersion : 0u;
+    features |= isGlass(material) && material.isSolid && material.dispersion > 0.0f ? kFeatureDispersion : 0u;
     return features;
 }
 
+bool attenuates(const Material& material) {
+    return material.isSolid && material.attenuationDistance < kNoAttenuation &&
+           material.attenuationColor != glm::vec3(1.0f);
+}
+
+bool wantsTangents(const Material& material) {
+    return has(material, TextureSlot::normal) || has(material, TextureSlot::clearcoatNormal) ||
+           material.anisotropy > 0.0f;
+}
+
 uint32_t featuresOf(const Material& material) {
-    const bool isSpecular = material.metallic > 0.0f || material.specular > 0.0f;
-    const bool isGlass = material.metallic < 1.0f && material.transmission > 0.0f;
-    uint32_t features = (isSpecular ? kFeatureSpecular : 0u) | (isGlass ? kFeatureGlass : 0u);
-    if (features != 0)
-        features |= lobeOf(material.roughness);
-    return features | extendedFeaturesOf(material);
+    uint32_t features = lobesOf(material) | extendedLobesOf(material);
+    features |= textureSlots(material) != 0 ? kFeatureTextures : 0u;
+    features |= wantsTangents(material) ? kFeatureTangents : 0u;
+    features |= material.isUnlit ? kFeatureUnlit : 0u;
+    features |= attenuates(material) ? kFeatureAttenuation : 0u;
+    return features;
+}
+
+uint32_t featuresOf(const Mesh& mesh) {
+    return (mesh.normals.empty() ? 0u : kFeatureShadingNormals) |
+           (mesh.colors.empty() ? 0u : kFeatureVertexColors);
 }
 
 } // namespace
@@ -38,7 +83,10 @@ uint32_t sceneFeatures(const Scene& scene, const Lights& lights) {
     for (const Material& material : scene.materials)
         features |= featuresOf(material);
     for (const Mesh& mesh : scene.meshes)
-        features |= mesh.normals.empty() ? 0u : kFeatureShadingNormals;
+        features |= featuresOf(mesh);
+    const std::vector<bool> transparent = transparentMeshes(scene);
+    features |=
+        std::find(transparent.begin(), transparent.end(), true) != transparent.end() ? kFeatureAlpha : 0u;
     features |= lights.emitters.list.empty() ? 0u : kFeatureTriangleLights;
     features |= lights.punctuals.empty() ? 0u : kFeaturePunctualLights;
     features |= lights.environment ? kFeatureEnvironment : 0u;

@@ -3,6 +3,7 @@
 // through texel buffers is passed on as loaded.
 #include "lib/ray_offset.glsl"
 #include "scene/light.glsl"
+#include "scene/tangent_frame.glsl"
 #include "scene/traverse.glsl"
 #include "shared/frame.h"
 #include "shared/trace.h"
@@ -24,6 +25,10 @@ layout(set = 0, binding = 51, std430) writeonly buffer MaterialRecordOut { Mater
 layout(set = 0, binding = 52, std430) writeonly buffer LightRecordOut { LightRecord light[]; };
 layout(set = 0, binding = 54, std430) writeonly buffer PunctualRecordOut { PunctualRecord punctual[]; };
 layout(set = 0, binding = 55, std430) writeonly buffer LightTreeRecordOut { LightTreeRecord lightTreeNode[]; };
+layout(set = 0, binding = 56, std430) writeonly buffer TextureRecordOut { TextureRecord textureRecord[]; };
+layout(set = 0, binding = 57, std430) writeonly buffer TriangleUvsOut { TriangleUvs uvs[]; };
+layout(set = 0, binding = 58, std430) writeonly buffer TriangleColorsOut { TriangleColors colors[]; };
+layout(set = 0, binding = 59, std430) writeonly buffer TriangleTangentsOut { TriangleTangents tangents[]; };
 layout(set = 0, binding = 53, std430) writeonly buffer TracedHitOut { TracedHit tracedHit[]; };
 
 void main() {
@@ -45,4 +50,8 @@ void main() {
     light[1] = fetchLight(1u);
     punctual[1] = fetchPunctual(1u);
     lightTreeNode[1] = fetchLightTreeNode(1u);
+    textureRecord[1] = fetchTexture(1u);
+    uvs[1] = fetchTriangleUvs(kUvTexels);
+    colors[1] = fetchTriangleColors(1u);
+    tangents[1] = fetchTriangleTangents(1u);
 }

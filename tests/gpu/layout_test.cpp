@@ -11,6 +11,7 @@
 #include "shared/bvh.h"
 #include "shared/frame.h"
 #include "shared/scene.h"
+#include "shared/texture.h"
 #include "shared/trace.h"
 #include "shared/wavefront.h"
 #include "support/test_device.h"
@@ -42,6 +43,10 @@ const MaterialRecord kMaterialRecord{
 const LightRecord kLightRecord{1, 2, 3, 4};
 const PunctualRecord kPunctualRecord{{1, 2, 3}, 4, {5, 6, 7}, 8, {9, 10, 11}, 12};
 const LightTreeRecord kLightTreeRecord{{1, 2, 3}, 4, 5, 6, 7, 8};
+const TextureRecord kTextureRecord{{1, 2, 3}, 4, {5, 6, 7}, 8, 9, 10, 11, 12};
+const TriangleUvs kTriangleUvs{{1, 2}, {3, 4}, {5, 6}, {7, 8}};
+const TriangleColors kTriangleColors{{1, 2}, {3, 4}, {5, 6}, {7, 8}};
+const TriangleTangents kTriangleTangents{1, 2, 3, 4};
 
 class LayoutTest : public DeviceTest {
   protected:
@@ -94,6 +99,10 @@ TEST_F(LayoutTest, GlslAndCppLayOutEverySharedStructAlike) {
     input("lights", kLightRecord);
     input("punctuals", kPunctualRecord);
     input("lightTree", kLightTreeRecord);
+    input("textures", kTextureRecord);
+    input("triangleUvs", kTriangleUvs);
+    input("triangleColors", kTriangleColors);
+    input("triangleTangents", kTriangleTangents);
     const gpu::Buffer& ray = output<Ray>("RayOut");
     const gpu::Buffer& hit = output<Hit>("HitOut");
     const gpu::Buffer& path = output<Path>("PathOut");
@@ -110,6 +119,10 @@ TEST_F(LayoutTest, GlslAndCppLayOutEverySharedStructAlike) {
     const gpu::Buffer& light = output<LightRecord>("LightRecordOut");
     const gpu::Buffer& punctual = output<PunctualRecord>("PunctualRecordOut");
     const gpu::Buffer& lightTreeNode = output<LightTreeRecord>("LightTreeRecordOut");
+    const gpu::Buffer& texture = output<TextureRecord>("TextureRecordOut");
+    const gpu::Buffer& uvs = output<TriangleUvs>("TriangleUvsOut");
+    const gpu::Buffer& colors = output<TriangleColors>("TriangleColorsOut");
+    const gpu::Buffer& tangents = output<TriangleTangents>("TriangleTangentsOut");
     runKernel();
     expectSecond(ray, kRay);
     expectSecond(hit, kHit);
@@ -127,6 +140,10 @@ TEST_F(LayoutTest, GlslAndCppLayOutEverySharedStructAlike) {
     expectSecond(light, kLightRecord);
     expectSecond(punctual, kPunctualRecord);
     expectSecond(lightTreeNode, kLightTreeRecord);
+    expectSecond(texture, kTextureRecord);
+    expectSecond(uvs, kTriangleUvs);
+    expectSecond(colors, kTriangleColors);
+    expectSecond(tangents, kTriangleTangents);
 }
 
 } // namespace

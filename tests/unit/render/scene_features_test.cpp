@@ -49,6 +49,51 @@ TEST(SceneFeatures, GlassIsWhatTransmitsAndIsNoMetal) {
     EXPECT_EQ(featuresOf(glass), kFeatureSpecular | kFeatureSmoothLobes);
 }
 
+TEST(SceneFeatures, TexturesMayMakeMirrorsAndGlassOfWhatTheFactorsMakeRoughOrMetal) {
+    Material metal = lambert();
+    metal.metallic = 1.0f;
+    metal.transmission = 1.0f;
+    metal.textures[kSlotMetallicRoughness] = Texture{};
+    EXPECT_EQ(featuresOf(metal),
+              kFeatureSpecular | kFeatureGlass | kFeatureRoughLobes | kFeatureSmoothLobes | kFeatureTextures);
+    Material glossy = lambert();
+    glossy.specular = 1.0f;
+    glossy.roughness = 0.0f;
+    glossy.isGlossiness = true;
+    glossy.textures[kSlotSpecularColor] = Texture{};
+    EXPECT_EQ(featuresOf(glossy),
+              kFeatureSpecular | kFeatureRoughLobes | kFeatureSmoothLobes | kFeatureTextures);
+}
+
+TEST(SceneFeatures, NormalMapsWantTangentsAndSolidsOfColourAttenuation) {
+    Material mapped = lambert();
+    mapped.textures[kSlotNormal] = Texture{};
+    EXPECT_EQ(featuresOf(mapped), kFeatureTextures | kFeatureTangents);
+    Material body = lambert();
+    body.transmission = 1.0f;
+    body.isSolid = true;
+    body.attenuationColor = {1.0f, 0.5f, 0.5f};
+    EXPECT_EQ(featuresOf(body) & kFeatureAttenuation, 0u);
+    body.attenuationDistance = 1.0f;
+    EXPECT_EQ(featuresOf(body) & kFeatureAttenuation, kFeatureAttenuation);
+    Material unlit = lambert();
+    unlit.isUnlit = true;
+    EXPECT_EQ(featuresOf(unlit), kFeatureUnlit);
+}
+
+TEST(SceneFeatures, ColoursAndAlphaOfMeshesAreNamed) {
+    Scene scene;
+    scene.materials = {lambert()};
+    Mesh mesh;
+    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    mesh.triangles = {{0, 1, 2}};
+    mesh.colors.assign(3, glm::vec4(0.5f));
+    scene.meshes = {mesh};
+    EXPECT_EQ(featuresOf(scene), kFeatureVertexColors);
+    scene.materials.front().alphaMode = AlphaMode::blend;
+    EXPECT_EQ(featuresOf(scene), kFeatureVertexColors | kFeatureAlpha);
+}
+
 TEST(SceneFeatures, LobesOfExtensionsAreNamed) {
     Material material = lambert();
     material.clearcoat = 0.5f;
@@ -68,8 +113,8 @@ TEST(SceneFeatures, LobesOfExtensionsAreNamed) {
     EXPECT_EQ(featuresOf(metal), kFeatureSpecular | kFeatureSmoothLobes | kFeatureIridescence);
     metal.iridescence = 0.0f;
     metal.anisotropy = 0.5f; // rough along one axis
-    EXPECT_EQ(featuresOf(metal),
-              kFeatureSpecular | kFeatureSmoothLobes | kFeatureRoughLobes | kFeatureAnisotropy);
+    EXPECT_EQ(featuresOf(metal), kFeatureSpecular | kFeatureSmoothLobes | kFeatureRoughLobes |
+                                     kFeatureAnisotropy | kFeatureTangents);
 }
 
 TEST(SceneFeatures, OnlySolidGlassDisperses) {

@@ -1,0 +1,36 @@
+// A triangle that a ray has met and that may let it through. Traversal leaves its loop to ask: lavapipe executes all that
+// stands in a loop, and would look up textures at every step.
+#include "scene/alpha.glsl"
+#include "shared/wavefront.h"
+
+struct AlphaQuestion {
+    bool isOpen;
+    Hit candidate;
+    uint passed; // bit i: triangle i of the leaf at hand has let the ray through
+};
+
+const AlphaQuestion kNoQuestion = AlphaQuestion(false, Hit(0.0, 0u, vec2(0.0)), 0u);
+
+// Takes a triangle of the leaf that starts at `first` for a candidate, unless it has answered.
+void askAlpha(Hit candidate, uint first, inout AlphaQuestion question) {
+    if ((question.passed >> (candidate.leafTriangle - first) & 1u) == 0u) {
+        question.isOpen = true;
+        question.candidate = candidate;
+    }
+}
+
+// True if the candidate stops the ray, and hit is shortened to it.
+bool answerAlpha(uint first, uint seed, inout AlphaQuestion question, inout Hit hit) {
+    const bool wasOpen = question.isOpen;
+    const Hit candidate = question.candidate;
+    const vec3 b = vec3(1.0 - candidate.barycentrics.x - candidate.barycentrics.y, candidate.barycentrics);
+    question.isOpen = false;
+    if (wasOpen && letsThrough(loadLeafTriangle(candidate.leafTriangle), b, seed)) {
+        question.passed |= 1u << (candidate.leafTriangle - first);
+        return false;
+    }
+    if (!wasOpen || candidate.t >= hit.t)
+        return false;
+    hit = candidate;
+    return true;
+}

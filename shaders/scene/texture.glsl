@@ -1,0 +1,58 @@
+// Textures: pictures in one buffer of words, and their value at a point of a triangle.
+#include "lib/texture_filter.glsl"
+#include "shared/bindings.h"
+#include "shared/texture.h"
+
+layout(set = 0, binding = BINDING_PICTURES) uniform usamplerBuffer pictures;
+layout(set = 0, binding = BINDING_TEXTURES) uniform usamplerBuffer textures; // kTextureTexels each
+layout(set = 0, binding = BINDING_TRIANGLE_UVS) uniform usamplerBuffer triangleUvs;
+
+TextureRecord fetchTexture(uint index) {
+    const int texel = int(index * kTextureTexels);
+    const uvec4 a = texelFetch(textures, texel);
+    const uvec4 b = texelFetch(textures, texel + 1);
+    const uvec4 c = texelFetch(textures, texel + 2);
+    return TextureRecord(uintBitsToFloat(a.xyz), a.w, uintBitsToFloat(b.xyz), b.w, c.x, c.y, c.z, c.w);
+}
+
+TriangleUvs fetchTriangleUvs(uint texel) {
+    const vec4 a = uintBitsToFloat(texelFetch(triangleUvs, int(texel)));
+    const vec4 b = uintBitsToFloat(texelFetch(triangleUvs, int(texel + 1u)));
+    return TriangleUvs(a.xy, a.zw, b.xy, b.zw);
+}
+
+// Words of a texel lie in one element: pictures start with an element, and texels have one word or two.
+vec4 fetchPictureTexel(TextureRecord t, ivec2 at) {
+    const bool is16Bit = (t.flags & kTexture16Bit) != 0u;
+    const uint word = t.firstWord + (uint(at.y) * t.width + uint(at.x)) * (is16Bit ? 2u : 1u);
+    const uvec4 element = texelFetch(pictures, int(word >> 2u));
+    const uvec2 pair = (word & 2u) != 0u ? element.zw : element.xy;
+    return texelValue((word & 1u) != 0u ? pair.yy : pair, t.flags);
+}
+
+// Texels are decoded before they are mixed.
+vec4 filteredTexture(TextureRecord t, vec2 uv) {
+    const TexelFootprint f = texelFootprint(uv, uvec2(t.width, t.height), t.flags);
+    const vec4 above =
+        mix(fetchPictureTexel(t, f.first), fetchPictureTexel(t, ivec2(f.second.x, f.first.y)), f.share.x);
+    const vec4 below =
+        mix(fetchPictureTexel(t, ivec2(f.first.x, f.second.y)), fetchPictureTexel(t, f.second), f.share.x);
+    return mix(above, below, f.share.y);
+}
+
+// The texture at a point of a triangle; barycentrics b.
+vec4 textureAt(uint index, uint triangle, vec3 b) {
+    const TextureRecord t = fetchTexture(index);
+    const TriangleUvs corners = fetchTriangleUvs(triangle * t.uvTexels + t.uvTexel);
+    const vec3 uv = vec3(b.x * corners.uv0 + b.y * corners.uv1 + b.z * corners.uv2, 1.0);
+    return filteredTexture(t, vec2(dot(t.uRow, uv), dot(t.vRow, uv)));
+}
+
+// Where a slot's texture lies, if textureSlots says that there is one.
+uint textureIndex(uint firstTexture, uint textureSlots, uint slot) {
+    return firstTexture + uint(bitCount(textureSlots & ((1u << slot) - 1u)));
+}
+
+bool hasTexture(uint textureSlots, uint slot) {
+    return (textureSlots >> slot & 1u) != 0u;
+}

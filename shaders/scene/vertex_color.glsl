@@ -1,0 +1,21 @@
+// Colours given at the corners of triangles.
+#include "shared/bindings.h"
+#include "shared/texture.h"
+
+layout(set = 0, binding = BINDING_TRIANGLE_COLORS) uniform usamplerBuffer triangleColors; // kColorTexels a triangle
+
+vec4 unpackColor(uvec2 words) {
+    return vec4(unpackUnorm2x16(words.x), unpackUnorm2x16(words.y));
+}
+
+TriangleColors fetchTriangleColors(uint triangle) {
+    const uvec4 a = texelFetch(triangleColors, int(triangle * kColorTexels));
+    const uvec4 b = texelFetch(triangleColors, int(triangle * kColorTexels + 1u));
+    return TriangleColors(a.xy, a.zw, b.xy, b.zw);
+}
+
+// Linear RGBA at barycentrics b.
+vec4 vertexColor(uint triangle, vec3 b) {
+    const TriangleColors c = fetchTriangleColors(triangle);
+    return b.x * unpackColor(c.c0) + b.y * unpackColor(c.c1) + b.z * unpackColor(c.c2);
+}

@@ -1,0 +1,167 @@
+#include "light/texture_mean.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scene/texel.h"
+
+namespace lavalight {
+namespace {
+
+using Polygon = std::vector<glm::dvec2>;
+
+// Sutherland, Hodgman, "Reentrant Polygon Clipping", 1974: the part where p[axis] is above (side 1) or below
+// (-1) the limit.
+Polygon clipped(const Polygon& polygon, glm::length_t axis, double limit, double side) {
+    Polygon kept;
+    for (size_t i = 0; i < polygon.size(); ++i) {
+        const glm::dvec2& a = polygon[i];
+        const glm::dvec2& b = polygon[(i + 1) % polygon.size()];
+        const double da = side * (a[axis] - limit);
+        const double db = side * (b[axis] - limit);
+        if (da >= 0.0)
+            kept.push_back(a);
+        if ((da > 0.0 && db < 0.0) || (da < 0.0 && db > 0.0))
+            kept.push_back(glm::mix(a, b, da / (da - db)));
+    }
+    return kept;
+}
+
+double twiceArea(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
+    return std::abs((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x));
+}
+
+struct Range {
+    int64_t first;
+    int64_t last;
+};
+
+// Cells of unit length that the polygon reaches into.
+Range cellsOf(const Polygon& polygon, glm::length_t axis) {
+    double low = polygon.front()[axis];
+    double high = low;
+    for (const glm::dvec2& p : polygon) {
+        low = std::min(low, p[axis]);
+        high = std::max(high, p[axis]);
+    }
+    return {static_cast<int64_t>(std::floor(low)),
+            std::max(static_cast<int64_t>(std::floor(low)), static_cast<int64_t>(std::ceil(high)) - 1)};
+}
+
+double cellCount(const std::array<glm::dvec2, 3>& corners) {
+    const glm::dvec2 size = glm::max(glm::max(corners[0], corners[1]), corners[2]) -
+                            glm::min(glm::min(corners[0], corners[1]), corners[2]);
+    return (size.x + 1.0) * (size.y + 1.0);
+}
+
+} // namespace
+
+TextureMean::TextureMean(const Picture& picture, const Texture& texture) : texture_(texture) {
+    Level level{picture.width, picture.height, {}};
+    level.texels.reserve(size_t{picture.width} * picture.height);
+    for (uint32_t y = 0; y < picture.height; ++y)
+        for (uint32_t x = 0; x < picture.width; ++x)
+            level.texels.emplace_back(texelOf(picture, x, y, texture.isSrgb));
+    levels_.push_back(std::move(level));
+    while (levels_.back().width > 1 || levels_.back().height > 1)
+        levels_.push_back(halved(levels_.back()));
+}
+
+TextureMean::Level TextureMean::halved(const Level& level) {
+    Level half{(level.width + 1) / 2, (level.height + 1) / 2, {}};
+    half.texels.reserve(size_t{half.width} * half.height);
+    for (uint32_t y = 0; y < half.height; ++y)
+        for (uint32_t x = 0; x < half.width; ++x) {
+            glm::vec3 sum(0.0f);
+            for (uint32_t i = 0; i < 4; ++i)
+                sum += level.texels[size_t{std::min(2 * y + i / 2, level.height - 1)} * level.width +
+                                    std::min(2 * x + i % 2, level.width - 1)];
+            half.texels.push_back(0.25f * sum);
+        }
+    return half;
+}
+
+// Bilinear textures are shifted by half a texel, so that cells of unit length lie between texel centres.
+TextureMean::Triangle TextureMean::onLevel(const std::array<glm::vec2, 3>& uvs, const Level& level) const {
+    Triangle triangle;
+    for (size_t i = 0; i < 3; ++i) {
+        const glm::dvec3 uv(uvs[i], 1.0);
+        triangle.corners[i] = {glm::dot(glm::dvec3(texture_.uRow), uv) * level.width,
+                               glm::dot(glm::dvec3(texture_.vRow), uv) * level.height};
+        if (!texture_.isNearest)
+            triangle.corners[i] -= 0.5;
+    }
+    return triangle;
+}
+
+glm::dvec3 TextureMean::texel(const Level& level, int64_t x, int64_t y) const {
+    return level.texels[size_t{wrapTexel(y, level.height, texture_.wrapV)} * level.width +
+                        wrapTexel(x, level.width, texture_.wrapU)];
+}
+
+// The texture at p, as cell (x, y) continues it.
+glm::dvec3 TextureMean::filtered(const Level& level, glm::dvec2 p, int64_t x, int64_t y) const {
+    if (texture_.isNearest)
+        return texel(level, x, y);
+    const glm::dvec2 f = p - glm::dvec2(x, y);
+    return glm::mix(glm::mix(texel(level, x, y), texel(level, x + 1, y), f.x),
+                    glm::mix(texel(level, x, y + 1), texel(level, x + 1, y + 1), f.x), f.y);
+}
+
+// Cell by cell: there the texture is a polynomial of degree 2, which the midpoints of a triangle's edges
+// integrate exactly.
+glm::dvec3 TextureMean::meanOver(const Triangle& triangle, const Level& level) const {
+    glm::dvec3 sum(0.0);
+    double area = 0.0;
+    const Polygon whole(triangle.corners.begin(), triangle.corners.end());
+    const Range rows = cellsOf(whole, 1);
+    for (int64_t y = rows.first; y <= rows.last; ++y) {
+        const auto top = static_cast<double>(y);
+        const Polygon row = clipped(clipped(whole, 1, top, 1.0), 1, top + 1.0, -1.0);
+        const Range columns = row.empty() ? Range{0, -1} : cellsOf(row, 0);
+        for (int64_t x = columns.first; x <= columns.last; ++x) {
+            const auto left = static_cast<double>(x);
+            const Polygon cell = clipped(clipped(row, 0, left, 1.0), 0, left + 1.0, -1.0);
+            for (size_t i = 2; i < cell.size(); ++i) {
+                const double weight = twiceArea(cell[0], cell[i - 1], cell[i]);
+                sum += weight / 3.0 *
+                       (filtered(level, 0.5 * (cell[0] + cell[i - 1]), x, y) +
+                        filtered(level, 0.5 * (cell[i - 1] + cell[i]), x, y) +
+                        filtered(level, 0.5 * (cell[i] + cell[0]), x, y));
+                area += weight;
+            }
+        }
+    }
+    return area > 0.0 ? sum / area : meanAlong(triangle, level);
+}
+
+// Of a triangle that is a line or a point in the picture: points along it.
+glm::dvec3 TextureMean::meanAlong(const Triangle& triangle, const Level& level) const {
+    constexpr int kSteps = 64;
+    glm::dvec3 sum(0.0);
+    for (int i = 0; i < kSteps; ++i)
+        for (size_t edge = 0; edge < 3; ++edge) {
+            const glm::dvec2 p =
+                glm::mix(triangle.corners[edge], triangle.corners[(edge + 1) % 3], (i + 0.5) / kSteps);
+            sum += filtered(level, p, static_cast<int64_t>(std::floor(p.x)),
+                            static_cast<int64_t>(std::floor(p.y)));
+        }
+    return sum / (3.0 * kSteps);
+}
+
+glm::dvec3 TextureMean::over(const std::array<glm::vec2, 3>& uvs) const {
+    for (const Level& level : levels_) {
+        const Triangle triangle = onLevel(uvs, level);
+        const glm::dvec2 a = triangle.corners[0];
+        if (!(cellCount(triangle.corners) <= kMostCells))
+            continue;
+        // Corners so close together, in texels, that cells of unit length would round away: a point.
+        constexpr double kLeastTwiceArea = 1e-9;
+        return twiceArea(a, triangle.corners[1], triangle.corners[2]) > kLeastTwiceArea
+                   ? meanOver(triangle, level)
+                   : meanAlong(triangle, level);
+    }
+    return levels_.back().texels.front(); // the whole picture, many times
+}
+
+} // namespace lavalight

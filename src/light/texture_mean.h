@@ -1,0 +1,47 @@
+// The mean of a texture over a triangle: what the power of a light with an emission texture depends on.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "scene/scene.h"
+
+namespace lavalight {
+
+class TextureMean {
+  public:
+    TextureMean(const Picture& picture, const Texture& texture);
+
+    // Linear RGB. uvs: the corners' coordinates, before the texture's transform. Exact for the texture's wrap
+    // modes and filter, up to kMostCells texels under the triangle; over more, for the picture in half, a
+    // quarter, ... of its size. Above 0 wherever the triangle shows a texel that is not black.
+    [[nodiscard]] glm::dvec3 over(const std::array<glm::vec2, 3>& uvs) const;
+
+    static constexpr double kMostCells = 65536.0;
+
+  private:
+    // The picture, its size divided by a power of 2.
+    struct Level {
+        uint32_t width = 0;
+        uint32_t height = 0;
+        std::vector<glm::vec3> texels;
+    };
+    struct Triangle { // in texels of a level
+        std::array<glm::dvec2, 3> corners;
+    };
+
+    [[nodiscard]] static Level halved(const Level& level);
+    [[nodiscard]] Triangle onLevel(const std::array<glm::vec2, 3>& uvs, const Level& level) const;
+    [[nodiscard]] glm::dvec3 texel(const Level& level, int64_t x, int64_t y) const;
+    [[nodiscard]] glm::dvec3 filtered(const Level& level, glm::dvec2 p, int64_t x, int64_t y) const;
+    [[nodiscard]] glm::dvec3 meanOver(const Triangle& triangle, const Level& level) const;
+    [[nodiscard]] glm::dvec3 meanAlong(const Triangle& triangle, const Level& level) const;
+
+    Texture texture_;
+    std::vector<Level> levels_;
+};
+
+} // namespace lavalight
