@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "app/environment_options.h"
 #include "app/interrupt.h"
 #include "app/progress.h"
 #include "base/error.h"
@@ -66,8 +67,9 @@ void failOnValidation(const gpu::Device& device) {
                                 messages.front()));
 }
 
-Scene loadWithWarnings(const std::string& name) {
+Scene loadWithWarnings(const std::string& name, const RenderSettings& settings) {
     Scene scene = loadScene(name);
+    readEnvironmentMap(settings, scene);
     for (const std::string& warning : scene.warnings)
         spdlog::warn("{}", warning);
     return scene;
@@ -175,7 +177,7 @@ int RenderCommand::run() {
 
     RenderReport report;
     Stopwatch watch;
-    const Scene scene = loadWithWarnings(scene_);
+    const Scene scene = loadWithWarnings(scene_, settings);
     const Camera& camera = options_.pickCamera(scene);
     settings = resolveSize(settings, camera);
     checkSettings(settings);

@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "app/environment_options.h"
 #include "gpu/device.h"
 #include "render/settings.h"
 #include "scene/scene.h"
@@ -35,7 +36,7 @@ class RenderOptions {
     CLI::App* parser_; // asked which options were given
     std::string size_;
     std::string camera_;
-    std::string environment_;
+    EnvironmentOptions environment_;
     std::string preset_;
     std::string clampIndirect_ = "off";
     EstimatorSettings estimator_; // values of the options; those not given are taken from the preset

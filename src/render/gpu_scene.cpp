@@ -30,6 +30,8 @@ GpuScene::GpuScene(gpu::Device& device, const SceneData& data)
       lights_(uploadTexels(device, "lights", data.lights)),
       punctuals_(uploadTexels(device, "punctual lights", data.punctuals)),
       lightTree_(uploadTexels(device, "light tree", data.lightTree)),
+      environmentMap_(uploadTexels(device, "environment map", data.environmentMap)),
+      environmentQuads_(uploadTexels(device, "environment quads", data.environmentQuads)),
       albedoTable_(albedoTableFor(device, data.features)) {}
 
 void GpuScene::addTo(gpu::ResourceTable& resources) const {
@@ -40,12 +42,15 @@ void GpuScene::addTo(gpu::ResourceTable& resources) const {
     resources.set("lights", lights_);
     resources.set("punctuals", punctuals_);
     resources.set("lightTree", lightTree_);
+    resources.set("environmentMap", environmentMap_);
+    resources.set("environmentQuads", environmentQuads_);
     resources.set("albedoTable", albedoTable_);
 }
 
 uint64_t GpuScene::bytes() const {
     return nodes_.bytes() + leafTriangles_.bytes() + normals_.bytes() + materials_.bytes() + lights_.bytes() +
-           punctuals_.bytes() + lightTree_.bytes() + albedoTable_.bytes();
+           punctuals_.bytes() + lightTree_.bytes() + environmentMap_.bytes() + environmentQuads_.bytes() +
+           albedoTable_.bytes();
 }
 
 } // namespace lavalight

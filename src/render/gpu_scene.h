@@ -29,6 +29,8 @@ class GpuScene {
     gpu::Buffer lights_;
     gpu::Buffer punctuals_;
     gpu::Buffer lightTree_;
+    gpu::Buffer environmentMap_;
+    gpu::Buffer environmentQuads_;
     gpu::Buffer albedoTable_;
 };
 

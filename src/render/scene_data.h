@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "accel/bvh.h"
+#include "light/environment.h"
 #include "light/lights.h"
 #include "scene/scene.h"
 #include "shared/bvh.h"
@@ -20,6 +21,8 @@ struct SceneData {
     std::vector<LightRecord> lights;
     std::vector<PunctualRecord> punctuals;
     std::vector<LightTreeRecord> lightTree;
+    std::vector<glm::vec4> environmentMap; // per cell of light/environment.h
+    std::vector<EnvironmentQuad> environmentQuads;
     uint32_t features; // kFeature...
 };
 
