@@ -28,12 +28,20 @@ uint64_t emissiveTriangleCount(const Scene& scene) {
     return count;
 }
 
-// Positions, normals and indices in host memory, as imported.
+template <class T>
+uint64_t bytesOf(const std::vector<T>& values) {
+    return values.size() * sizeof(T);
+}
+
+// Vertices and indices in host memory, as imported.
 uint64_t geometryBytes(const Scene& scene) {
     uint64_t bytes = 0;
-    for (const Mesh& mesh : scene.meshes)
-        bytes += mesh.positions.size() * sizeof(glm::vec3) + mesh.normals.size() * sizeof(glm::vec3) +
-                 mesh.triangles.size() * sizeof(glm::uvec3);
+    for (const Mesh& mesh : scene.meshes) {
+        bytes += bytesOf(mesh.positions) + bytesOf(mesh.normals) + bytesOf(mesh.triangles) +
+                 bytesOf(mesh.colors) + bytesOf(mesh.tangents);
+        for (const std::vector<glm::vec2>& set : mesh.uvs)
+            bytes += bytesOf(set);
+    }
     return bytes;
 }
 

@@ -52,10 +52,10 @@ std::vector<std::string> builtinNames() {
     return names;
 }
 
-Scene loadScene(const std::string& nameOrPath) {
+Scene loadScene(const std::string& nameOrPath, const ImportOptions& options) {
     for (const EmbeddedFile& file : builtin::files()) {
         if (sceneName(file) == nameOrPath)
-            return importGltf(nameOrPath, file.bytes);
+            return importGltf(nameOrPath, file.bytes, options);
     }
     if (const auto triangles = countAfter("dense-", nameOrPath)) {
         if (*triangles > kMostTriangles)
@@ -70,7 +70,7 @@ Scene loadScene(const std::string& nameOrPath) {
         throw Error(fmt::format(
             "cannot read {}: no such file, and no built-in scene of that name (built in: {})",
             nameOrPath.empty() ? "a scene without a name" : nameOrPath, fmt::join(builtinNames(), ", ")));
-    return importGltf(nameOrPath);
+    return importGltf(std::filesystem::path(nameOrPath), options);
 }
 
 } // namespace lavalight

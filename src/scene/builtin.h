@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "scene/import_options.h"
 #include "scene/scene.h"
 
 namespace lavalight {
@@ -12,7 +13,8 @@ namespace lavalight {
 // "lamps-N" of lights.
 [[nodiscard]] std::vector<std::string> builtinNames();
 
-// A built-in scene by its name, else the .gltf or .glb file of that path. Throws Error.
-[[nodiscard]] Scene loadScene(const std::string& nameOrPath);
+// A built-in scene by its name, else the .gltf or .glb file of that path. Throws Error; UsageError
+// for options that ask for what the scene does not have.
+[[nodiscard]] Scene loadScene(const std::string& nameOrPath, const ImportOptions& options = {});
 
 } // namespace lavalight

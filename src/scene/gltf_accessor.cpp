@@ -74,13 +74,9 @@ void requireInsideBuffer(const GltfDocument& document, int index) {
 }
 
 std::string_view bytesOfView(const GltfDocument& document, int index) {
-    requireInsideBuffer(document, index);
-    const tinygltf::BufferView& view = document.model.bufferViews[static_cast<size_t>(index)];
-    const GltfBuffer& buffer = bufferOf(document, index);
-    if (buffer.bytes.empty())
-        throw document.error(
-            fmt::format("buffer {} is needed but has neither a uri nor a BIN chunk", view.buffer));
-    return std::string_view(buffer.bytes).substr(view.byteOffset, view.byteLength);
+    const tinygltf::BufferView& view = document.model.bufferViews.at(static_cast<size_t>(index));
+    return bytesOf(document.buffers, {static_cast<size_t>(view.buffer), view.byteOffset, view.byteLength},
+                   describe("buffer view", static_cast<size_t>(index), view.name), document.source);
 }
 
 // The bytes of `range`, from its first element to the end of the view. Multiplies nothing that could
@@ -215,17 +211,31 @@ bool AccessorView::isUnsignedScalar() const {
     return type_ == TINYGLTF_TYPE_SCALAR && isUnsigned(componentType_);
 }
 
-glm::vec3 AccessorView::vec3At(size_t i) const {
-    assert(isVec3() && i < count_);
+template <class Vector>
+Vector AccessorView::vectorAt(size_t i) const {
+    constexpr auto kSize = static_cast<size_t>(Vector::length());
+    assert(elementSize_ == kSize * componentSize(componentType_) && i < count_);
     const std::string_view element = bytes_.substr(i * stride_, elementSize_);
     if (componentType_ == TINYGLTF_COMPONENT_TYPE_FLOAT)
-        return load<glm::vec3>(element);
-    const size_t size = elementSize_ / 3;
-    glm::vec3 value;
-    for (int axis = 0; axis < 3; ++axis)
-        value[axis] =
-            loadComponent(element.substr(static_cast<size_t>(axis) * size), componentType_, normalized_);
+        return load<Vector>(element);
+    const size_t size = elementSize_ / kSize;
+    Vector value;
+    for (size_t axis = 0; axis < kSize; ++axis)
+        value[static_cast<glm::length_t>(axis)] =
+            loadComponent(element.substr(axis * size), componentType_, normalized_);
     return value;
+}
+
+glm::vec2 AccessorView::vec2At(size_t i) const {
+    return vectorAt<glm::vec2>(i);
+}
+
+glm::vec3 AccessorView::vec3At(size_t i) const {
+    return vectorAt<glm::vec3>(i);
+}
+
+glm::vec4 AccessorView::vec4At(size_t i) const {
+    return vectorAt<glm::vec4>(i);
 }
 
 uint32_t AccessorView::unsignedAt(size_t i) const {

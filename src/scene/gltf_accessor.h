@@ -22,17 +22,23 @@ class AccessorView {
 
     [[nodiscard]] size_t count() const { return count_; }
     [[nodiscard]] const std::string& name() const { return name_; } // for messages
+    [[nodiscard]] bool isVec2() const { return type_ == TINYGLTF_TYPE_VEC2; }
     [[nodiscard]] bool isVec3() const { return type_ == TINYGLTF_TYPE_VEC3; }
+    [[nodiscard]] bool isVec4() const { return type_ == TINYGLTF_TYPE_VEC4; }
     [[nodiscard]] bool isUnsignedScalar() const;
 
-    // Element i < count() of a VEC3; normalized integers are mapped to [0, 1] or [-1, 1]. May be infinite or
-    // NaN.
+    // Element i < count() of a VEC2, VEC3 or VEC4; normalized integers are mapped to [0, 1] or [-1, 1]. May
+    // be infinite or NaN.
+    [[nodiscard]] glm::vec2 vec2At(size_t i) const;
     [[nodiscard]] glm::vec3 vec3At(size_t i) const;
+    [[nodiscard]] glm::vec4 vec4At(size_t i) const;
 
     // Element i < count() of a scalar of an unsigned integer type.
     [[nodiscard]] uint32_t unsignedAt(size_t i) const;
 
   private:
+    template <class Vector>
+    [[nodiscard]] Vector vectorAt(size_t i) const;
     void applySparse(const GltfDocument& document, const tinygltf::Accessor& accessor);
 
     std::string name_;

@@ -63,7 +63,7 @@ bool hasPunctualLight(const Scene& scene) {
                        [](const PunctualLight& light) { return light.intensity != glm::vec3(0.0f); });
 }
 
-Scene buildScene(const GltfDocument& document) {
+Scene buildScene(const GltfDocument& document, [[maybe_unused]] const ImportOptions& options) {
     checkAccessors(document);
     GltfNotes notes;
     Scene scene;
@@ -74,8 +74,7 @@ Scene buildScene(const GltfDocument& document) {
     const std::vector<PlacedNode> nodes = placeNodes(document);
     noteIgnored(document, nodes, notes);
     scene.materials = readMaterials(document, notes);
-    const auto defaultMaterial = static_cast<uint32_t>(scene.materials.size() - 1);
-    scene.meshes = readMeshes(document, nodes, defaultMaterial, notes);
+    scene.meshes = readMeshes(document, nodes, scene.materials, notes);
     scene.bounds = boundsOf(scene.meshes);
     scene.cameras = readCameras(document, nodes, notes);
     if (scene.meshes.empty())
@@ -91,9 +90,9 @@ Scene buildScene(const GltfDocument& document) {
     return scene;
 }
 
-Scene import(const GltfSource& source, std::string_view bytes) {
+Scene import(const GltfSource& source, std::string_view bytes, const ImportOptions& options) {
     try {
-        return buildScene(parseGltf(bytes, source));
+        return buildScene(parseGltf(bytes, source), options);
     } catch (const std::bad_alloc&) {
         throw gltfError(source.name, "the memory does not suffice");
     } catch (const std::length_error&) {
@@ -103,12 +102,12 @@ Scene import(const GltfSource& source, std::string_view bytes) {
 
 } // namespace
 
-Scene importGltf(const std::filesystem::path& path) {
-    return import({path.string(), path.parent_path()}, readFile(path));
+Scene importGltf(const std::filesystem::path& path, const ImportOptions& options) {
+    return import({path.string(), path.parent_path()}, readFile(path), options);
 }
 
-Scene importGltf(const std::string& name, std::string_view bytes) {
-    return import({name, std::nullopt}, bytes);
+Scene importGltf(const std::string& name, std::string_view bytes, const ImportOptions& options) {
+    return import({name, std::nullopt}, bytes, options);
 }
 
 } // namespace lavalight

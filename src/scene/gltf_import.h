@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "scene/import_options.h"
 #include "scene/scene.h"
 
 namespace lavalight {
@@ -14,9 +15,10 @@ namespace lavalight {
 // gets one that frames it. Throws Error, in one line with the file's name, for what cannot be read: a missing
 // or damaged file, data out of range, a buffer outside the file's folder, a required extension that is not
 // supported.
-[[nodiscard]] Scene importGltf(const std::filesystem::path& path);
+[[nodiscard]] Scene importGltf(const std::filesystem::path& path, const ImportOptions& options = {});
 
 // The same for bytes at hand; they cannot refer to other files. `name` stands for the file in messages.
-[[nodiscard]] Scene importGltf(const std::string& name, std::string_view bytes);
+[[nodiscard]] Scene importGltf(const std::string& name, std::string_view bytes,
+                               const ImportOptions& options = {});
 
 } // namespace lavalight

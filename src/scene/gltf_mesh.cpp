@@ -5,9 +5,12 @@
 
 #include <fmt/format.h>
 
-#include "scene/gltf_accessor.h"
+#include "scene/gltf_instancing.h"
 #include "scene/gltf_topology.h"
+#include "scene/gltf_vertices.h"
 #include "scene/mesh_bake.h"
+#include "scene/mesh_vertices.h"
+#include "scene/tangents.h"
 
 namespace lavalight {
 namespace {
@@ -18,7 +21,7 @@ MeshInstances groupByMesh(const GltfDocument& document, const std::vector<Placed
     MeshInstances instances(document.model.meshes.size());
     for (const PlacedNode& placed : nodes) {
         const int mesh = document.model.nodes[static_cast<size_t>(placed.node)].mesh;
-        if (mesh >= 0)
+        if (mesh >= 0 && placed.isVisible)
             instances[static_cast<size_t>(mesh)].push_back(&placed);
     }
     return instances;
@@ -31,7 +34,10 @@ void requireFitting(const GltfDocument& document, const MeshInstances& instances
         double ofMesh = 0.0;
         for (const tinygltf::Primitive& primitive : document.model.meshes[i].primitives)
             ofMesh += static_cast<double>(triangleCount(primitive, document));
-        total += ofMesh * static_cast<double>(instances[i].size());
+        for (const PlacedNode* placed : instances[i]) {
+            const tinygltf::Node& node = document.model.nodes[static_cast<size_t>(placed->node)];
+            total += ofMesh * static_cast<double>(instanceCount(document, node));
+        }
     }
     if (total > static_cast<double>(kMostTriangles))
         throw document.error(
@@ -39,31 +45,8 @@ void requireFitting(const GltfDocument& document, const MeshInstances& instances
                         kMostTriangles));
 }
 
-// The accessor of an attribute, which must hold three components a vertex; none if the primitive lacks it.
-void readAttribute(const GltfDocument& document, const tinygltf::Primitive& primitive, const char* name,
-                   std::optional<AccessorView>& view) {
-    const auto attribute = primitive.attributes.find(name);
-    if (attribute == primitive.attributes.end())
-        return;
-    view.emplace(document, attribute->second);
-    if (!view->isVec3())
-        throw document.error(fmt::format("{} is used as {} and must be a VEC3", view->name(), name));
-}
-
-void requireEqualCounts(const GltfDocument& document, const tinygltf::Primitive& primitive,
-                        const std::string& name, size_t vertexCount) {
-    for (const auto& [attribute, accessor] : primitive.attributes) {
-        const size_t count = document.model.accessors[static_cast<size_t>(accessor)].count;
-        if (count != vertexCount)
-            throw document.error(
-                fmt::format("{} has {} vertices but {} elements of {}", name, vertexCount, count, attribute));
-    }
-}
-
 void noteUnread(const GltfDocument& document, const tinygltf::Primitive& primitive, const std::string& name,
                 GltfNotes& notes) {
-    if (primitive.attributes.contains("COLOR_0"))
-        notes.addObject("vertex colours are not read yet", name);
     if (!primitive.targets.empty())
         notes.addObject("morph targets are not evaluated yet, their meshes are shown unmorphed", name);
     const int indices = primitive.indices;
@@ -80,22 +63,15 @@ Mesh readPrimitive(const GltfDocument& document, const tinygltf::Primitive& prim
         notes.addObject("points and lines are not rendered", name);
         return mesh;
     }
-    std::optional<AccessorView> positions;
-    std::optional<AccessorView> normals;
-    readAttribute(document, primitive, "POSITION", positions);
-    readAttribute(document, primitive, "NORMAL", normals);
-    if (!positions) {
+    if (!primitive.attributes.contains("POSITION")) {
         notes.addObject("a primitive without positions shows nothing", name);
         return mesh;
     }
-    requireEqualCounts(document, primitive, name, positions->count());
+    const size_t vertexCount = countVertices(document, primitive, name);
     noteUnread(document, primitive, name, notes);
-    mesh.triangles = readTriangles(document, primitive, positions->count());
-    for (const uint32_t vertex : compactIndices(mesh.triangles)) {
-        mesh.positions.push_back(positions->vec3At(vertex));
-        if (normals)
-            mesh.normals.push_back(normals->vec3At(vertex));
-    }
+    std::vector<glm::uvec3> triangles = readTriangles(document, primitive, vertexCount);
+    mesh = readVertices(document, primitive, compactIndices(triangles), name, notes);
+    mesh.triangles = std::move(triangles);
     return mesh;
 }
 
@@ -108,36 +84,76 @@ void noteCounts(const BakeCounts& counts, GltfNotes& notes) {
     if (counts.repairedNormals > 0)
         notes.add(fmt::format("{} normals of no direction were replaced by those of the triangles",
                               counts.repairedNormals));
+    if (counts.repairedTangents > 0)
+        notes.add(fmt::format("{} tangents of no direction were replaced by others along the surface",
+                              counts.repairedTangents));
 }
+
+// Reads primitives and places them in the scene.
+class MeshReader {
+  public:
+    MeshReader(const GltfDocument& document, const std::vector<Material>& materials, GltfNotes& notes)
+        : document_(document), materials_(materials), notes_(notes) {}
+
+    // Everything that nodes show of glTF's mesh `index`.
+    void read(size_t index, const std::vector<const PlacedNode*>& nodes) {
+        const tinygltf::Mesh& source = document_.model.meshes[index];
+        const std::string name = describe("mesh", index, source.name);
+        for (const tinygltf::Primitive& primitive : source.primitives) {
+            Mesh local = readPrimitive(document_, primitive, name, notes_);
+            local.material = primitive.material < 0 ? static_cast<uint32_t>(materials_.size() - 1)
+                                                    : static_cast<uint32_t>(primitive.material);
+            if (local.triangles.empty())
+                continue;
+            for (const PlacedNode* placed : nodes) {
+                const tinygltf::Node& node = document_.model.nodes[static_cast<size_t>(placed->node)];
+                local.name = printable(source.name.empty() ? node.name : source.name);
+                placeInstances(local, *placed, node);
+            }
+        }
+    }
+
+    [[nodiscard]] std::vector<Mesh> finish() {
+        noteCounts(counts_, notes_);
+        return std::move(meshes_);
+    }
+
+  private:
+    void placeInstances(const Mesh& local, const PlacedNode& placed, const tinygltf::Node& node) {
+        const InstanceReader instances(document_, node);
+        for (size_t i = 0; i < instances.count(); ++i)
+            place(local, placed.toWorld * instances.transform(i));
+    }
+
+    // To world space, with tangents where the material wants them.
+    void place(const Mesh& local, const glm::dmat4& toWorld) {
+        Mesh mesh = bakeMesh(local, toWorld, counts_);
+        const std::optional<uint32_t> uvSet = tangentUvSet(materials_[local.material]);
+        if (mesh.tangents.empty() && uvSet)
+            generateTangents(mesh, *uvSet);
+        if (!mesh.triangles.empty())
+            meshes_.push_back(std::move(mesh));
+    }
+
+    const GltfDocument& document_;
+    const std::vector<Material>& materials_;
+    GltfNotes& notes_;
+    BakeCounts counts_;
+    std::vector<Mesh> meshes_;
+};
 
 } // namespace
 
 std::vector<Mesh> readMeshes(const GltfDocument& document, const std::vector<PlacedNode>& nodes,
-                             uint32_t defaultMaterial, GltfNotes& notes) {
+                             const std::vector<Material>& materials, GltfNotes& notes) {
     const MeshInstances instances = groupByMesh(document, nodes);
     requireFitting(document, instances);
-    std::vector<Mesh> meshes;
-    BakeCounts counts;
+    MeshReader reader(document, materials, notes);
     for (size_t i = 0; i < instances.size(); ++i) {
-        if (instances[i].empty())
-            continue;
-        const tinygltf::Mesh& source = document.model.meshes[i];
-        const std::string name = describe("mesh", i, source.name);
-        for (const tinygltf::Primitive& primitive : source.primitives) {
-            Mesh local = readPrimitive(document, primitive, name, notes);
-            local.material =
-                primitive.material < 0 ? defaultMaterial : static_cast<uint32_t>(primitive.material);
-            for (const PlacedNode* placed : instances[i]) {
-                const auto& node = document.model.nodes[static_cast<size_t>(placed->node)];
-                local.name = printable(source.name.empty() ? node.name : source.name);
-                Mesh baked = bakeMesh(local, placed->toWorld, counts);
-                if (!baked.triangles.empty())
-                    meshes.push_back(std::move(baked));
-            }
-        }
+        if (!instances[i].empty())
+            reader.read(i, instances[i]);
     }
-    noteCounts(counts, notes);
-    return meshes;
+    return reader.finish();
 }
 
 } // namespace lavalight

@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include <fmt/format.h>
-#include <glm/gtc/matrix_transform.hpp>
-#include <glm/gtc/quaternion.hpp>
+
+#include "scene/gltf_transform.h"
 
 namespace lavalight {
 namespace {
@@ -75,18 +75,21 @@ glm::dmat4 localTransform(const tinygltf::Node& node) {
             matrix[i / 4][i % 4] = node.matrix[static_cast<size_t>(i)];
         return matrix;
     }
-    glm::dmat4 matrix(1.0);
+    Transform transform;
     if (node.translation.size() == 3)
-        matrix = glm::translate(matrix, {node.translation[0], node.translation[1], node.translation[2]});
-    if (node.rotation.size() == 4) {
-        const glm::dquat rotation(node.rotation[3], node.rotation[0], node.rotation[1], node.rotation[2]);
-        // Exporters round; a quaternion that is not of unit length would scale. All zeros mean no rotation.
-        if (glm::length(rotation) > 0.0)
-            matrix *= glm::mat4_cast(glm::normalize(rotation));
-    }
+        transform.translation = {node.translation[0], node.translation[1], node.translation[2]};
+    if (node.rotation.size() == 4)
+        transform.rotation = {node.rotation[0], node.rotation[1], node.rotation[2], node.rotation[3]};
     if (node.scale.size() == 3)
-        matrix = glm::scale(matrix, {node.scale[0], node.scale[1], node.scale[2]});
-    return matrix;
+        transform.scale = {node.scale[0], node.scale[1], node.scale[2]};
+    return transform.matrix();
+}
+
+// KHR_node_visibility.
+bool isHidden(const tinygltf::Node& node) {
+    const auto extension = node.extensions.find("KHR_node_visibility");
+    return extension != node.extensions.end() && extension->second.Has("visible") &&
+           !extension->second.Get("visible").Get<bool>();
 }
 
 } // namespace
@@ -109,8 +112,9 @@ std::vector<PlacedNode> placeNodes(const GltfDocument& document) {
         seen[index] = true;
         const tinygltf::Node& node = document.model.nodes[index];
         next.toWorld *= localTransform(node);
+        next.isVisible = next.isVisible && !isHidden(node);
         for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
-            pending.push_back({*child, next.toWorld});
+            pending.push_back({*child, next.toWorld, next.isVisible});
         placed.push_back(next);
     }
     return placed;

@@ -13,6 +13,7 @@ namespace lavalight {
 struct PlacedNode {
     int node = -1;
     glm::dmat4 toWorld{1.0}; // double: deep hierarchies multiply many
+    bool isVisible = true;   // its mesh and its light; cameras are always there
 };
 
 // The nodes of the default scene (of scene 0 where none is named, of all root nodes where there are no

@@ -84,6 +84,25 @@ void addDataRules(std::vector<ObjectRule>& rules) {
     rules.push_back({"meshes[].primitives[].targets[]", {index("*", "accessors")}});
 }
 
+// Compressed buffer views and primitives, instances, visibility.
+void addGeometryExtensionRules(std::vector<ObjectRule>& rules) {
+    for (const char* view : {"bufferViews[].extensions.EXT_meshopt_compression",
+                             "bufferViews[].extensions.KHR_meshopt_compression"})
+        rules.push_back(
+            {view,
+             {index("buffer", "buffers", Need::required), optional("byteOffset", Kind::count),
+              required("byteLength", Kind::count), required("byteStride", Kind::count),
+              required("count", Kind::count), required("mode", Kind::text), optional("filter", Kind::text)}});
+    const char* draco = "meshes[].primitives[].extensions.KHR_draco_mesh_compression";
+    rules.push_back(
+        {draco, {index("bufferView", "bufferViews", Need::required), required("attributes", Kind::object)}});
+    rules.push_back({"meshes[].primitives[].extensions.KHR_draco_mesh_compression.attributes",
+                     {optional("*", Kind::small)}});
+    rules.push_back({"nodes[].extensions.EXT_mesh_gpu_instancing", {optional("attributes", Kind::object)}});
+    rules.push_back({"nodes[].extensions.EXT_mesh_gpu_instancing.attributes", {index("*", "accessors")}});
+    rules.push_back({"nodes[].extensions.KHR_node_visibility", {optional("visible", Kind::flag)}});
+}
+
 void addMaterialRules(std::vector<ObjectRule>& rules) {
     rules.push_back({"materials[]",
                      {optional("name", Kind::text), numbers("emissiveFactor", 3),
@@ -132,6 +151,7 @@ std::vector<ObjectRule> gltfSchemaRules() {
     addFileRules(rules);
     addLightRules(rules);
     addDataRules(rules);
+    addGeometryExtensionRules(rules);
     addMaterialRules(rules);
     addMotionRules(rules);
     return rules;

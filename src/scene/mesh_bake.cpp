@@ -1,9 +1,12 @@
-// Baking of meshes: transform, dropping of unusable triangles, normals.
+// Baking of meshes: transform, dropping of unusable triangles, normals, tangents.
 #include "scene/mesh_bake.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "scene/mesh_vertices.h"
+#include "scene/tangents.h"
 
 namespace lavalight {
 namespace {
@@ -33,15 +36,6 @@ Verdict judge(const Mesh& mesh, const glm::uvec3& t) {
     return squared >= std::numeric_limits<float>::min() ? Verdict::keep : Verdict::withoutArea;
 }
 
-template <class T>
-std::vector<T> gather(const std::vector<T>& values, const std::vector<uint32_t>& order) {
-    std::vector<T> gathered;
-    gathered.reserve(order.size());
-    for (const uint32_t i : order)
-        gathered.push_back(values[i]);
-    return gathered;
-}
-
 void dropUnusable(Mesh& mesh, BakeCounts& counts) {
     const size_t before = mesh.triangles.size();
     std::erase_if(mesh.triangles, [&](const glm::uvec3& triangle) {
@@ -53,9 +47,7 @@ void dropUnusable(Mesh& mesh, BakeCounts& counts) {
     if (mesh.triangles.size() == before)
         return;
     const std::vector<uint32_t> used = compactIndices(mesh.triangles);
-    mesh.positions = gather(mesh.positions, used);
-    if (!mesh.normals.empty())
-        mesh.normals = gather(mesh.normals, used);
+    selectVertices(mesh, used);
 }
 
 // Normals go with the inverse transpose. Up to a factor that is the matrix of cofactors, which also exists
@@ -106,35 +98,25 @@ void repairNormals(Mesh& mesh, BakeCounts& counts) {
     }
 }
 
-} // namespace
-
-std::vector<uint32_t> compactIndices(std::vector<glm::uvec3>& triangles) {
-    std::vector<uint32_t> used;
-    if (triangles.empty())
-        return used;
-    uint32_t lowest = std::numeric_limits<uint32_t>::max();
-    uint32_t highest = 0;
-    for (const glm::uvec3& t : triangles) {
-        lowest = std::min({lowest, t.x, t.y, t.z});
-        highest = std::max({highest, t.x, t.y, t.z});
+// A tangent is an edge of the surface and goes with the matrix itself. With the bitangent w * cross(normal,
+// tangent) and a normal that keeps its side, a mirror turns w. Only normals make sense of tangents: glTF has
+// flat meshes ignore theirs.
+void bakeTangents(Mesh& mesh, const glm::dmat3& transform, BakeCounts& counts) {
+    if (mesh.normals.empty())
+        mesh.tangents.clear();
+    const float mirror = glm::determinant(transform) < 0.0 ? -1.0f : 1.0f;
+    for (size_t i = 0; i < mesh.tangents.size(); ++i) {
+        glm::vec4& tangent = mesh.tangents[i];
+        glm::vec3 direction = unitOrZero(transform * glm::dvec3(tangent));
+        if (direction == glm::vec3(0.0f)) {
+            direction = anyTangent(mesh.normals[i]);
+            ++counts.repairedTangents;
+        }
+        tangent = glm::vec4(direction, tangent.w < 0.0f ? -mirror : mirror);
     }
-    // Many primitives may share one large accessor, each with a range of its own: only the range is looked
-    // at.
-    std::vector<uint32_t> numbers(size_t{highest - lowest} + 1, 0);
-    for (const glm::uvec3& t : triangles) {
-        for (int corner = 0; corner < 3; ++corner)
-            numbers[t[corner] - lowest] = 1;
-    }
-    for (size_t i = 0; i < numbers.size(); ++i) {
-        if (numbers[i] == 0)
-            continue;
-        numbers[i] = static_cast<uint32_t>(used.size());
-        used.push_back(lowest + static_cast<uint32_t>(i));
-    }
-    for (glm::uvec3& t : triangles)
-        t = {numbers[t.x - lowest], numbers[t.y - lowest], numbers[t.z - lowest]};
-    return used;
 }
+
+} // namespace
 
 Mesh bakeMesh(const Mesh& local, const glm::dmat4& toWorld, BakeCounts& counts) {
     Mesh mesh = local;
@@ -149,6 +131,7 @@ Mesh bakeMesh(const Mesh& local, const glm::dmat4& toWorld, BakeCounts& counts) 
     for (glm::vec3& normal : mesh.normals)
         normal = unitOrZero(transform * glm::dvec3(normal));
     repairNormals(mesh, counts);
+    bakeTangents(mesh, glm::dmat3(toWorld), counts);
     return mesh;
 }
 

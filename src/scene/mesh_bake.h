@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include <glm/glm.hpp>
 
@@ -12,16 +11,14 @@ namespace lavalight {
 
 // What baking changed, added up over meshes.
 struct BakeCounts {
-    uint64_t outOfRange = 0;      // triangles dropped: a position that is not finite or too large
-    uint64_t withoutArea = 0;     // triangles dropped: no normal in single precision
-    uint64_t repairedNormals = 0; // vertices whose normal came from the triangles around
+    uint64_t outOfRange = 0;       // triangles dropped: a position that is not finite or too large
+    uint64_t withoutArea = 0;      // triangles dropped: no normal in single precision
+    uint64_t repairedNormals = 0;  // vertices whose normal came from the triangles around
+    uint64_t repairedTangents = 0; // vertices whose tangent had no direction and got one along the surface
 };
 
-// `local` is a mesh in its own space, with normals of any length. The result's front faces turn
+// `local` is a mesh in its own space, with normals and tangents of any length. The result's front faces turn
 // counter-clockwise even where `toWorld` mirrors.
 [[nodiscard]] Mesh bakeMesh(const Mesh& local, const glm::dmat4& toWorld, BakeCounts& counts);
-
-// Renumbers the vertices that `triangles` uses from 0 and returns their former numbers, in ascending order.
-[[nodiscard]] std::vector<uint32_t> compactIndices(std::vector<glm::uvec3>& triangles);
 
 } // namespace lavalight

@@ -1,0 +1,15 @@
+// What a caller may choose where a file holds more than one scene to show.
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace lavalight {
+
+struct ImportOptions {
+    std::optional<double> seconds; // the animations' time; none: nodes stay where the file places them
+    std::string animation;         // name or index; empty: the first
+    std::string variant;           // of the materials, by name or index; empty: none
+};
+
+} // namespace lavalight
