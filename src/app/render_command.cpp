@@ -178,7 +178,7 @@ int RenderCommand::run() {
     RenderReport report;
     Stopwatch watch;
     const Scene scene = loadWithWarnings(scene_, settings);
-    const Camera& camera = options_.pickCamera(scene);
+    const Camera camera = options_.cameraOf(scene);
     settings = resolveSize(settings, camera);
     checkSettings(settings);
     watch.lap("load");

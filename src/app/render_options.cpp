@@ -78,7 +78,7 @@ float parseClamp(const std::string& text) {
 
 } // namespace
 
-RenderOptions::RenderOptions(CLI::App& parser) : parser_(&parser), environment_(parser) {
+RenderOptions::RenderOptions(CLI::App& parser) : parser_(&parser), camera_(parser), environment_(parser) {
     declareImage(parser);
     declareStop(parser);
     declareEstimator(parser);
@@ -89,8 +89,6 @@ RenderOptions::RenderOptions(CLI::App& parser) : parser_(&parser), environment_(
 void RenderOptions::declareImage(CLI::App& parser) {
     parser.add_option("--size", size_, "Image size in pixels; default: 512 high, as wide as the camera asks")
         ->type_name("WxH");
-    parser.add_option("--camera", camera_, "Camera by name or index; default: the first")
-        ->type_name("NAME|INDEX");
     parser.add_option("--seed", estimator_.seed, "Another seed, other noise")->type_name("N");
 }
 
@@ -195,26 +193,12 @@ RenderSettings RenderOptions::settings() const {
     if (!size_.empty())
         parseSize(size_, settings);
     environment_.applyTo(settings);
+    settings.cameraOptions = camera_.given();
     return settings;
 }
 
 gpu::DeviceConfig RenderOptions::device() const {
     return device_;
-}
-
-const Camera& RenderOptions::pickCamera(const Scene& scene) const {
-    if (camera_.empty())
-        return scene.cameras.front();
-    for (const Camera& camera : scene.cameras)
-        if (camera.name == camera_)
-            return camera;
-    if (const auto index = parseNumber<size_t>(camera_); index && *index < scene.cameras.size())
-        return scene.cameras[*index];
-    std::string known;
-    for (size_t i = 0; i < scene.cameras.size(); ++i)
-        known += fmt::format("{}{} \"{}\"", i > 0 ? ", " : "", i, scene.cameras[i].name);
-    throw UsageError(
-        fmt::format("--camera: {} has no camera \"{}\"; it has {}", scene.source, camera_, known));
 }
 
 } // namespace lavalight

@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "app/camera_options.h"
 #include "app/environment_options.h"
 #include "gpu/device.h"
 #include "render/settings.h"
@@ -23,8 +24,8 @@ class RenderOptions {
     // Throws UsageError naming the option and what it takes.
     [[nodiscard]] RenderSettings settings() const;
     [[nodiscard]] gpu::DeviceConfig device() const;
-    // The camera asked for by name or index, else the first. Throws UsageError naming the cameras there are.
-    [[nodiscard]] const Camera& pickCamera(const Scene& scene) const;
+    // Throws UsageError as CameraOptions::cameraOf does.
+    [[nodiscard]] Camera cameraOf(const Scene& scene) const { return camera_.cameraOf(scene); }
 
   private:
     void declareImage(CLI::App& parser);
@@ -35,7 +36,7 @@ class RenderOptions {
 
     CLI::App* parser_; // asked which options were given
     std::string size_;
-    std::string camera_;
+    CameraOptions camera_;
     EnvironmentOptions environment_;
     std::string preset_;
     std::string clampIndirect_ = "off";

@@ -89,6 +89,7 @@ std::vector<std::pair<std::string, std::string>> describe(const RenderSettings& 
         add("env-rotation", settings.environmentRotation);
     }
     add("env-intensity", settings.environmentIntensity);
+    pairs.insert(pairs.end(), settings.cameraOptions.begin(), settings.cameraOptions.end());
     return pairs;
 }
 

@@ -70,7 +70,8 @@ struct RenderSettings {
     std::optional<glm::vec3> environment; // constant radiance that replaces the scene's
     std::string environmentFile;          // where Scene::environmentMap came from; empty: nowhere
     float environmentRotation = 0.0f;     // of the map about +Y, degrees, counter-clockwise seen from above
-    float environmentIntensity = 1.0f;    // multiplies the environment, whatever it is
+    std::vector<std::pair<std::string, std::string>> cameraOptions; // as given, for describe() alone
+    float environmentIntensity = 1.0f; // multiplies the environment, whatever it is
 };
 
 constexpr uint32_t kMaxBounceLimit = 1024; // counters of every bounce are kept for the whole wave

@@ -95,7 +95,8 @@ Scene sunnyScene() {
 }
 
 TEST_F(EnvironmentImage, EverySettingHasTheMeanOfTheDefaultUnderASun) {
-    expectOneMean(device(), sunnyScene(), singleVariants(), 256, 0.3);
+    // With fewer samples, BSDF rays alone find the sun too seldom for their variance to be known.
+    expectOneMean(device(), sunnyScene(), singleVariants(), 1024, 0.3);
 }
 
 } // namespace
