@@ -10,7 +10,8 @@ const uint kDimensionLight = 1u;       // 2-D: which light, and a point or direc
 const uint kDimensionBsdf = 3u;        // 2-D: direction
 const uint kDimensionLobe = 4u;        // 1-D: which lobe
 const uint kDimensionRoulette = 5u;    // 1-D: survival
-const uint kDimensionLens = 6u;        // 2-D: point on the lens (camera vertex)
+const uint kDimensionChannel = 6u;     // 1-D: which colour a dispersing body refracts
+const uint kDimensionLens = 7u;        // 2-D: point on the lens (camera vertex)
 
 struct SampleKey {
     uint seed;

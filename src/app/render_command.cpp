@@ -67,8 +67,9 @@ void failOnValidation(const gpu::Device& device) {
                                 messages.front()));
 }
 
-Scene loadWithWarnings(const std::string& name, const RenderSettings& settings) {
-    Scene scene = loadScene(name);
+Scene loadWithWarnings(const std::string& name, const ImportOptions& options,
+                       const RenderSettings& settings) {
+    Scene scene = loadScene(name, options);
     readEnvironmentMap(settings, scene);
     for (const std::string& warning : scene.warnings)
         spdlog::warn("{}", warning);
@@ -130,7 +131,7 @@ void printSummary(const RenderReport& report) {
 } // namespace
 
 RenderCommand::RenderCommand(CLI::App& app)
-    : Command(app, "render", "Render a scene to an image"), options_(parser()) {
+    : Command(app, "render", "Render a scene to an image"), options_(parser()), sceneOptions_(parser()) {
     parser()
         .add_option("scene", scene_,
                     "Built-in scene (" + fmt::format("{}", fmt::join(builtinNames(), ", ")) +
@@ -177,7 +178,8 @@ int RenderCommand::run() {
 
     RenderReport report;
     Stopwatch watch;
-    const Scene scene = loadWithWarnings(scene_, settings);
+    report.import = sceneOptions_.importOptions();
+    const Scene scene = loadWithWarnings(scene_, report.import, settings);
     const Camera camera = options_.cameraOf(scene);
     settings = resolveSize(settings, camera);
     checkSettings(settings);

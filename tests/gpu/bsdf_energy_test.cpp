@@ -24,6 +24,10 @@ struct Push { // as in the kernel
 constexpr size_t kBatches = 128; // of 1024 samples each
 const std::vector<float> kCosines = {1.0f, 0.9f, 0.7f, 0.5f, 0.3f, 0.2f, 0.1f, 0.05f, 0.02f, 0.005f};
 
+std::vector<float> azimuthsOf(const MaterialRecord& record) {
+    return record.anisotropy > 0.0f ? std::vector<float>{0.0f, 0.8f, 1.5707963f} : std::vector<float>{0.0f};
+}
+
 struct Albedo {
     glm::dvec3 mean{0.0};
     double standardError = 0.0; // of the worst channel
@@ -37,11 +41,16 @@ class BsdfEnergyTest : public DeviceTest {
         const MaterialBuffers buffers(device(), materials);
         KernelRunner runner(device(), test_kernels::find("bsdf_energy_test"), buffers.resources());
         for (uint32_t material = 0; material < materials.size(); ++material)
-            for (const float cosTheta : kCosines) {
-                SCOPED_TRACE(fmt::format("{}, cosine {}", materials[material].name, cosTheta));
-                const Push push{{std::sqrt(1.0f - cosTheta * cosTheta), 0.0f, cosTheta}, material};
-                check(materials[material], cosTheta, albedoOf(runner.generate<glm::vec4>(kBatches, push)));
-            }
+            for (const float azimuth : azimuthsOf(materials[material].record))
+                for (const float cosTheta : kCosines) {
+                    SCOPED_TRACE(fmt::format("{}, cosine {}, azimuth {}", materials[material].name, cosTheta,
+                                             azimuth));
+                    const float sinTheta = std::sqrt(1.0f - cosTheta * cosTheta);
+                    const Push push{{sinTheta * std::cos(azimuth), sinTheta * std::sin(azimuth), cosTheta},
+                                    material};
+                    check(materials[material], cosTheta,
+                          albedoOf(runner.generate<glm::vec4>(kBatches, push)));
+                }
     }
 
   private:
@@ -63,9 +72,10 @@ double largest(const glm::dvec3& v) {
 }
 
 std::vector<TestMaterial> allMaterials() {
-    std::vector<TestMaterial> all = roughMaterials();
-    for (TestMaterial& material : smoothMaterials())
-        all.push_back(material);
+    std::vector<TestMaterial> all;
+    for (const auto& list : {roughMaterials(), smoothMaterials(), layeredMaterials(), tiltedCoats(),
+                             transmissiveMaterials(), solidMaterials(), smoothLayers(), smoothFilms()})
+        all.insert(all.end(), list.begin(), list.end());
     return all;
 }
 

@@ -46,7 +46,7 @@ struct Answer { // as in bsdf_test.comp
 };
 
 constexpr size_t kSamples = 100000;
-constexpr size_t kRings = 16;
+constexpr size_t kRings = 32; // from the zenith to the nadir
 constexpr size_t kSectors = 32;
 constexpr size_t kPointsPerSide = 16; // of a bin, for its integral
 constexpr size_t kPoints = kPointsPerSide * kPointsPerSide;
@@ -75,12 +75,12 @@ double azimuthStep(double sector) {
     return 3.0 * kPi * s * s * 2.0 / kSectors;
 }
 
-// Bin of a direction of the upper hemisphere.
+// Bin of a direction.
 size_t binOf(const glm::dvec3& w) {
-    const double theta = std::acos(std::min(w.z, 1.0));
+    const double theta = std::acos(std::clamp(w.z, -1.0, 1.0));
     const double turn = std::remainder(std::atan2(w.y, w.x) - kMirrorAzimuth, 2.0 * kPi);
     const double sector = 0.5 * (std::cbrt(turn / kPi) + 1.0) * kSectors;
-    const auto ring = std::min(static_cast<size_t>(theta / (0.5 * kPi) * kRings), kRings - 1);
+    const auto ring = std::min(static_cast<size_t>(theta / kPi * kRings), kRings - 1);
     return ring * kSectors + std::min(static_cast<size_t>(sector), kSectors - 1);
 }
 
@@ -97,15 +97,21 @@ BinPoints makeBinPoints() {
     BinPoints points;
     for (size_t bin = 0; bin < kRings * kSectors; ++bin)
         for (size_t i = 0; i < kPoints; ++i) {
-            const double theta = 0.5 * kPi * middle(bin / kSectors, i % kPointsPerSide) / kRings;
+            const double theta = kPi * middle(bin / kSectors, i % kPointsPerSide) / kRings;
             const double sector = middle(bin % kSectors, i / kPointsPerSide);
             const double phi = azimuthAt(sector);
             points.directions.emplace_back(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi),
                                            std::cos(theta));
-            points.solidAngles.push_back(std::sin(theta) * (0.5 * kPi / kRings) * azimuthStep(sector) /
-                                         kPoints);
+            points.solidAngles.push_back(std::sin(theta) * (kPi / kRings) * azimuthStep(sector) / kPoints);
         }
     return points;
+}
+
+std::vector<TestMaterial> joined(const std::vector<std::vector<TestMaterial>>& lists) {
+    std::vector<TestMaterial> all;
+    for (const std::vector<TestMaterial>& list : lists)
+        all.insert(all.end(), list.begin(), list.end());
+    return all;
 }
 
 class BsdfSampleTest : public DeviceTest {
@@ -143,8 +149,11 @@ class BsdfSampleTest : public DeviceTest {
     }
 };
 
+// Samples of delta lobes count with those that are absorbed.
 TEST_F(BsdfSampleTest, DirectionsHaveTheDensityThatThePdfSays) {
-    const std::vector<TestMaterial> materials = roughMaterials();
+    const std::vector<TestMaterial> materials =
+        joined({roughMaterials(), layeredMaterials(), tiltedCoats(), transmissiveMaterials(),
+                solidMaterials(), smoothLayers()});
     Bench eval(device(), materials, "bsdf_test");
     Bench sample(device(), materials, "bsdf_sample_test");
     const BinPoints points = makeBinPoints();
@@ -158,7 +167,8 @@ TEST_F(BsdfSampleTest, DirectionsHaveTheDensityThatThePdfSays) {
 }
 
 TEST_F(BsdfSampleTest, WeightTimesPdfIsEval) {
-    const std::vector<TestMaterial> materials = roughMaterials();
+    const std::vector<TestMaterial> materials = joined(
+        {roughMaterials(), layeredMaterials(), tiltedCoats(), transmissiveMaterials(), solidMaterials()});
     Bench sample(device(), materials, "bsdf_sample_test");
     for (uint32_t material = 0; material < materials.size(); ++material)
         for (const float cosTheta : kCosines) {

@@ -37,6 +37,18 @@ class BsdfTest : public DeviceTest {
         KernelRunner runner(device(), test_kernels::find("bsdf_test"), buffers.resources());
         return runner.map<Answer>(questions);
     }
+    void expectReciprocity(const std::vector<TestMaterial>& materials,
+                           const std::vector<Question>& questions) {
+        const std::vector<Answer> answers = ask(materials, questions);
+        for (size_t i = 0; i < questions.size(); ++i)
+            for (glm::length_t c = 0; c < 3; ++c) {
+                const float forwards = answers[i].f[c] / std::abs(questions[i].wi.z);
+                const float backwards = answers[i].swapped[c] / questions[i].wo.z;
+                ASSERT_NEAR(forwards, backwards, 2e-4f * std::max(forwards, backwards) + 1e-9f)
+                    << materials[questions[i].material].name << ": cosines " << questions[i].wo.z << ", "
+                    << questions[i].wi.z;
+            }
+    }
 };
 
 glm::vec3 upwards(glm::vec3 w) {
@@ -54,17 +66,19 @@ std::vector<Question> randomPairs(size_t materials, size_t perMaterial) {
 }
 
 TEST_F(BsdfTest, SwappedDirectionsReflectAlike) {
-    const std::vector<TestMaterial> materials = roughMaterials();
+    std::vector<TestMaterial> materials = roughMaterials();
+    for (const auto& list : {layeredMaterials(), transmissiveMaterials()})
+        materials.insert(materials.end(), list.begin(), list.end());
     const std::vector<Question> questions = randomPairs(materials.size(), 4096);
-    const std::vector<Answer> answers = ask(materials, questions);
-    for (size_t i = 0; i < questions.size(); ++i)
-        for (glm::length_t c = 0; c < 3; ++c) {
-            const float forwards = answers[i].f[c] / questions[i].wi.z;
-            const float backwards = answers[i].swapped[c] / questions[i].wo.z;
-            ASSERT_NEAR(forwards, backwards, 2e-4f * std::max(forwards, backwards) + 1e-9f)
-                << materials[questions[i].material].name << ": cosines " << questions[i].wo.z << ", "
-                << questions[i].wi.z;
-        }
+    expectReciprocity(materials, questions);
+}
+
+TEST_F(BsdfTest, SwappedDirectionsTransmitAlike) {
+    const std::vector<TestMaterial> materials = transmissiveMaterials();
+    std::vector<Question> questions = randomPairs(materials.size(), 4096);
+    for (Question& question : questions)
+        question.wi.z *= -1.0f;
+    expectReciprocity(materials, questions);
 }
 
 TEST_F(BsdfTest, NothingIsTransmitted) {
