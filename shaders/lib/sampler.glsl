@@ -11,6 +11,7 @@ const uint kDimensionBsdf = 3u;        // 2-D: direction
 const uint kDimensionLobe = 4u;        // 1-D: which lobe
 const uint kDimensionRoulette = 5u;    // 1-D: survival
 const uint kDimensionChannel = 6u;     // 1-D: which colour a dispersing body refracts
+const uint kDimensionLens = 7u;        // 2-D: point on the lens (camera vertex)
 const uint kDimensionAlpha = 8u;       // 1-D, with each triangle: whether the ray from here passes through
 const uint kDimensionShadowAlpha = 9u; // the same for the shadow ray
 

@@ -55,3 +55,17 @@ vec2 squareToTriangle(vec2 u) {
 float squareToTrianglePdfArea(float area) {
     return 1.0 / area;
 }
+
+// [0, 1] by a density that is linear from `first` to `last`, neither of them negative: the inverse of its integral, in the
+// form that loses no digits where the two are equal. Uniform where both are 0.
+float unitToLinear(float u, float first, float last) {
+    const float sum = first + last;
+    const float a = sum > 0.0 ? first / sum : 0.5;
+    const float b = 1.0 - a;
+    return min(u / max(a + sqrt(mix(a * a, b * b, u)), 1e-30), 1.0); // u = 0 and a = 0: no division by 0
+}
+
+float unitToLinearPdf(float x, float first, float last) {
+    const float sum = first + last;
+    return sum > 0.0 ? 2.0 * mix(first, last, x) / sum : 1.0;
+}

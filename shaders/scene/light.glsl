@@ -1,7 +1,7 @@
 // Lights: picking one, sampling it from a point, and the density with which that finds a direction.
 #include "lib/features.glsl"
-#include "lib/onb.glsl"
 #include "lib/random.glsl"
+#include "scene/environment.glsl"
 #include "scene/light_tree.glsl"
 #include "scene/punctual_light.glsl"
 #include "scene/receiver.glsl"
@@ -62,25 +62,6 @@ LightPick pickLight(FrameParameters frame, Receiver receiver, uint bits) {
     return pick;
 }
 
-// A constant environment is sampled by the cosine around the receiver's normal, which leaves a diffuse surface no variance
-// but that of visibility. cosTheta: between normal and direction; what comes from behind is left to BSDF rays.
-float environmentPdf(float cosTheta) {
-    return squareToCosineHemispherePdf(cosTheta);
-}
-
-// `reach`: a distance beyond the scene.
-LightSample sampleEnvironment(vec3 from, vec3 n, vec2 u, vec3 radiance, float reach) {
-    const vec3 local = squareToCosineHemisphere(u);
-    LightSample light;
-    light.wi = toWorld(makeBasis(n), local);
-    light.end = from + reach * light.wi;
-    light.radiance = radiance;
-    light.pdf = environmentPdf(local.z);
-    light.isDelta = false;
-    light.triangle = kNoTriangle;
-    return light;
-}
-
 // Next-event estimation; frame.lightColumns > 0. `n`: the shading normal, which the receiver has but roughly. The pdf
 // includes the pmf of the pick.
 LightSample sampleLight(FrameParameters frame, Receiver receiver, vec3 n, uvec2 bits) {
@@ -95,8 +76,8 @@ LightSample sampleLight(FrameParameters frame, Receiver receiver, vec3 n, uvec2 
         light = sampleTriangleLight(receiver.p, u, index);
     if (sceneHas(kFeaturePunctualLights) && kind == kLightPunctual)
         light = samplePunctualLight(receiver.p, index, reach);
-    if (sceneHas(kFeatureEnvironment) && kind == kLightEnvironment)
-        light = sampleEnvironment(receiver.p, n, u, frame.environment, reach);
+    if (sceneHas(kFeatureEnvironment | kFeatureEnvironmentMap) && kind == kLightEnvironment)
+        light = sampleEnvironment(frame, receiver.p, n, u, reach);
     light.pdf *= pick.pmf;
     return light;
 }

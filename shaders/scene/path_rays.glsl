@@ -5,11 +5,13 @@
 
 const Path kNewPath = Path(vec3(1.0), 0.0, vec3(0.0), 1.0);
 
-// Through a random point of the slot's pixel.
+// Through a random point of the slot's pixel, and of the lens.
 Ray cameraRayOf(uint slot) {
     const uint pixel = pixelOfSlot(slot);
     const vec2 corner = vec2(pixel % frame.imageWidth, pixel / frame.imageWidth);
-    return cameraRay(frame, corner + sample2D(keyOfSlot(slot, 0u), kDimensionPixel));
+    const SampleKey key = keyOfSlot(slot, 0u);
+    const vec2 lens = sceneHas(kFeatureSpecialCamera) ? sample2D(key, kDimensionLens) : vec2(0.0);
+    return cameraRay(frame, corner + sample2D(key, kDimensionPixel), lens);
 }
 
 // The closest hit; t is infinite where there is none. glTF's back-face culling is for the camera alone: light transport

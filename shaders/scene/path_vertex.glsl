@@ -45,10 +45,11 @@ float hitLightPdf(Interaction surface, Hit hit, Ray ray) {
 }
 
 float missLightPdf(Ray ray) {
-    if (!sceneHas(kFeatureEnvironment) || frame.environmentLight == kNoLight || kNee == 0u)
+    if (!sceneHas(kFeatureEnvironment | kFeatureEnvironmentMap) || frame.environmentLight == kNoLight || kNee == 0u)
         return 0.0;
     const Receiver receiver = unpackReceiver(ray.origin, ray.receiver);
-    return lightPmf(frame, receiver, frame.environmentLight) * environmentPdf(ray.originCosine);
+    return lightPmf(frame, receiver, frame.environmentLight) *
+           environmentPdf(frame, ray.direction, ray.originCosine);
 }
 
 // n and ng must agree about the side of wi.
@@ -132,7 +133,8 @@ NextRays scatter(Hit hit, Ray ray, uint slot, uint bounce, inout Path path) {
     next.isCut = false;
     next.wantsShadowRay = false;
     if (hit.t == kInfinity) {
-        const vec3 found = path.throughput * frame.environment * foundLightWeight(path.bsdfPdf, missLightPdf(ray));
+        const vec3 found = path.throughput * environmentRadiance(frame, ray.direction) *
+                           foundLightWeight(path.bsdfPdf, missLightPdf(ray));
         path.radiance += clamped(found, bounce);
         return next;
     }

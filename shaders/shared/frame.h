@@ -8,14 +8,14 @@ LAVALIGHT_SHARED_BEGIN
 
 struct FrameParameters {
     vec3 cameraPosition;
-    uint isOrthographic;
+    uint projection; // kProjection...
     vec3 cameraRight; // half the width of the image plane at distance 1 (perspective) or of the view (orthographic)
     uint imageWidth;
     vec3 cameraUp; // half the height, as above
     uint imageHeight;
     vec3 cameraForward; // unit length
     uint seed;
-    vec3 environment; // constant radiance
+    vec3 environment; // constant radiance, or what the map's texels are multiplied by
     uint lightColumns; // of the alias table of lights; 0: there are no lights
     vec3 sceneCenter; // of the sphere around everything, where light from infinity starts
     float sceneRadius;
@@ -27,6 +27,14 @@ struct FrameParameters {
     uint bandPixels;     // pixels of the film at hand
     uint waveSize;       // slots
     uint firstLightColumn; // among the lights; those before it are in the light tree
+    uint environmentWidth; // texels of the map; 0: there is none
+    uint environmentHeight;
+    float environmentRotation; // turns (lib/equirectangular.glsl says which way u grows)
+    float lensRadius;          // metres; 0: pinhole
+    float focusDistance;       // metres along cameraForward to the plane that is sharp
+    uint unused0;
+    uint unused1;
+    uint unused2;
 };
 
 // Specialisation constants: the estimator settings that pick code (lib/estimator.glsl).
@@ -39,6 +47,10 @@ struct FrameParameters {
 #define CONSTANT_FRESNEL 6
 #define CONSTANT_FEATURES 7 // of the scene, not of the estimator (lib/features.glsl)
 #define CONSTANT_COUNT_VISITS 8 // of traversal (scene/traverse.glsl)
+
+SHARED_CONST uint kProjectionPerspective = 0u;
+SHARED_CONST uint kProjectionOrthographic = 1u;
+SHARED_CONST uint kProjectionPanorama = 2u; // all directions, as in lib/equirectangular.glsl
 
 // Values of those constants; the C++ enumerations use the same numbers.
 SHARED_CONST uint kSamplerSobol = 0u;

@@ -150,7 +150,8 @@ SHARED_CONST uint kFeatureSheen = 0x40000u;
 SHARED_CONST uint kFeatureAnisotropy = 0x80000u;
 SHARED_CONST uint kFeatureIridescence = 0x100000u;
 SHARED_CONST uint kFeatureDiffuseTransmission = 0x200000u;
-SHARED_CONST uint kAllFeatures = 0x3fffffu;
+SHARED_CONST uint kFeatureSpecialCamera = 0x400000u; // with a lens, or a panorama
+SHARED_CONST uint kAllFeatures = 0x7fffffu;
 
 // Directional albedo of the GGX lobe, tabulated over (sqrt(cosine), roughness); a row ends with its cosine-weighted average.
 SHARED_CONST uint kAlbedoCosines = 64u;

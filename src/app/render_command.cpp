@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "app/environment_options.h"
 #include "app/interrupt.h"
 #include "app/progress.h"
 #include "base/error.h"
@@ -66,8 +67,10 @@ void failOnValidation(const gpu::Device& device) {
                                 messages.front()));
 }
 
-Scene loadWithWarnings(const std::string& name, const ImportOptions& options) {
+Scene loadWithWarnings(const std::string& name, const ImportOptions& options,
+                       const RenderSettings& settings) {
     Scene scene = loadScene(name, options);
+    readEnvironmentMap(settings, scene);
     for (const std::string& warning : scene.warnings)
         spdlog::warn("{}", warning);
     return scene;
@@ -176,8 +179,8 @@ int RenderCommand::run() {
     RenderReport report;
     Stopwatch watch;
     report.import = sceneOptions_.importOptions();
-    const Scene scene = loadWithWarnings(scene_, report.import);
-    const Camera& camera = options_.pickCamera(scene);
+    const Scene scene = loadWithWarnings(scene_, report.import, settings);
+    const Camera camera = options_.cameraOf(scene);
     settings = resolveSize(settings, camera);
     checkSettings(settings);
     watch.lap("load");

@@ -1,6 +1,5 @@
 #include "app/render_options.h"
 
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -12,33 +11,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "app/option_values.h"
 #include "base/error.h"
 #include "render/presets.h"
 #include "render/setting_names.h"
 
 namespace lavalight {
 namespace {
-
-// The whole of `text` as a number, or nothing.
-template <typename Number>
-std::optional<Number> parseNumber(std::string_view text) {
-    Number value{};
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size())
-        return std::nullopt;
-    return value;
-}
-
-std::vector<std::string_view> splitAt(std::string_view text, char separator) {
-    std::vector<std::string_view> parts;
-    size_t start = 0;
-    for (size_t at = text.find(separator); at != std::string_view::npos; at = text.find(separator, start)) {
-        parts.push_back(text.substr(start, at - start));
-        start = at + 1;
-    }
-    parts.push_back(text.substr(start));
-    return parts;
-}
 
 void parseSize(const std::string& text, RenderSettings& settings) {
     const auto parts = splitAt(text, 'x');
@@ -49,20 +28,6 @@ void parseSize(const std::string& text, RenderSettings& settings) {
                                      kMaxImageSide));
     settings.width = *width;
     settings.height = *height;
-}
-
-glm::vec3 parseEnvironment(const std::string& text) {
-    const auto parts = splitAt(text, ',');
-    glm::vec3 radiance(0.0f);
-    bool isGood = parts.size() == 3;
-    for (size_t i = 0; isGood && i < 3; ++i) {
-        const auto value = parseNumber<float>(parts[i]);
-        isGood = value && std::isfinite(*value) && *value >= 0.0f;
-        radiance[static_cast<glm::length_t>(i)] = value.value_or(0.0f);
-    }
-    if (!isGood)
-        throw UsageError(fmt::format("--env: \"{}\" is not R,G,B with three radiances of 0 or more", text));
-    return radiance;
 }
 
 // Takes one of the names, whatever their case, and hands on the value's number, which is what the parser
@@ -113,7 +78,7 @@ float parseClamp(const std::string& text) {
 
 } // namespace
 
-RenderOptions::RenderOptions(CLI::App& parser) : parser_(&parser) {
+RenderOptions::RenderOptions(CLI::App& parser) : parser_(&parser), camera_(parser), environment_(parser) {
     declareImage(parser);
     declareStop(parser);
     declareEstimator(parser);
@@ -124,10 +89,6 @@ RenderOptions::RenderOptions(CLI::App& parser) : parser_(&parser) {
 void RenderOptions::declareImage(CLI::App& parser) {
     parser.add_option("--size", size_, "Image size in pixels; default: 512 high, as wide as the camera asks")
         ->type_name("WxH");
-    parser.add_option("--camera", camera_, "Camera by name or index; default: the first")
-        ->type_name("NAME|INDEX");
-    parser.add_option("--env", environment_, "Constant radiance from all sides; replaces the scene's")
-        ->type_name("R,G,B");
     parser.add_option("--seed", estimator_.seed, "Another seed, other noise")->type_name("N");
 }
 
@@ -231,28 +192,13 @@ RenderSettings RenderOptions::settings() const {
         settings.samples = 0x7fffffff;
     if (!size_.empty())
         parseSize(size_, settings);
-    if (!environment_.empty())
-        settings.environment = parseEnvironment(environment_);
+    environment_.applyTo(settings);
+    settings.cameraOptions = camera_.given();
     return settings;
 }
 
 gpu::DeviceConfig RenderOptions::device() const {
     return device_;
-}
-
-const Camera& RenderOptions::pickCamera(const Scene& scene) const {
-    if (camera_.empty())
-        return scene.cameras.front();
-    for (const Camera& camera : scene.cameras)
-        if (camera.name == camera_)
-            return camera;
-    if (const auto index = parseNumber<size_t>(camera_); index && *index < scene.cameras.size())
-        return scene.cameras[*index];
-    std::string known;
-    for (size_t i = 0; i < scene.cameras.size(); ++i)
-        known += fmt::format("{}{} \"{}\"", i > 0 ? ", " : "", i, scene.cameras[i].name);
-    throw UsageError(
-        fmt::format("--camera: {} has no camera \"{}\"; it has {}", scene.source, camera_, known));
 }
 
 } // namespace lavalight

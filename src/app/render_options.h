@@ -5,6 +5,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "app/camera_options.h"
+#include "app/environment_options.h"
 #include "gpu/device.h"
 #include "render/settings.h"
 #include "scene/scene.h"
@@ -22,8 +24,8 @@ class RenderOptions {
     // Throws UsageError naming the option and what it takes.
     [[nodiscard]] RenderSettings settings() const;
     [[nodiscard]] gpu::DeviceConfig device() const;
-    // The camera asked for by name or index, else the first. Throws UsageError naming the cameras there are.
-    [[nodiscard]] const Camera& pickCamera(const Scene& scene) const;
+    // Throws UsageError as CameraOptions::cameraOf does.
+    [[nodiscard]] Camera cameraOf(const Scene& scene) const { return camera_.cameraOf(scene); }
 
   private:
     void declareImage(CLI::App& parser);
@@ -34,8 +36,8 @@ class RenderOptions {
 
     CLI::App* parser_; // asked which options were given
     std::string size_;
-    std::string camera_;
-    std::string environment_;
+    CameraOptions camera_;
+    EnvironmentOptions environment_;
     std::string preset_;
     std::string clampIndirect_ = "off";
     EstimatorSettings estimator_; // values of the options; those not given are taken from the preset

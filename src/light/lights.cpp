@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <string>
 
 #include <fmt/format.h>
@@ -49,6 +50,24 @@ void addPunctuals(const Scene& scene, bool atInfinity, Lights& lights) {
     }
 }
 
+// Leaves no trace of an environment without power.
+void addEnvironment(const Scene& scene, const glm::vec3& radiance, Lights& lights) {
+    glm::dvec3 mean(radiance);
+    if (scene.environmentMap && radiance != glm::vec3(0.0f)) {
+        lights.environmentMap = makeEnvironmentDistribution(scene.environmentMap->image);
+        mean *= lights.environmentMap->meanRadiance;
+    }
+    const double power = environmentPower(glm::vec3(mean), scene.bounds);
+    requireFinite(power, "the environment");
+    if (power > 0.0) {
+        lights.environmentRadiance = radiance;
+        lights.environment = static_cast<uint32_t>(lights.powers.size());
+        lights.powers.push_back(power);
+    } else {
+        lights.environmentMap.reset();
+    }
+}
+
 // Over all lights that are somewhere.
 LightTree treeOf(const Scene& scene, const Lights& lights) {
     std::vector<LightBounds> bounds = boundsOf(scene, lights.emitters);
@@ -64,12 +83,27 @@ LightTree treeOf(const Scene& scene, const Lights& lights) {
 // with 1/20.
 constexpr double kWeightOfFoundEnvironment = 1.0 / 16.0;
 
+// A map's sun or lamps are found by light samples alone: it is picked by its power beside that of the tree,
+// within bounds, since powers say little about a single point. Measured on dense-3000 (a quad) under a clear
+// sky with its sun, where the map brings nearly all: relMSE of equal samples 0.115 with a share of 1/17,
+// 0.029 with 1/5, 0.0075 with 1/2, 0.0037 with 3/4.
+constexpr double kMostWeightOfMap = 3.0;
+
+double environmentWeight(const Lights& lights, bool bsdfFindsEnvironment) {
+    if (!lights.environmentMap)
+        return bsdfFindsEnvironment ? kWeightOfFoundEnvironment : 1.0;
+    const double local = std::accumulate(
+        lights.powers.begin(), lights.powers.begin() + static_cast<std::ptrdiff_t>(lights.firstColumn), 0.0);
+    return local > 0.0 ? std::clamp(lights.powers.back() / local, 1.0 / kMostWeightOfMap, kMostWeightOfMap)
+                       : 1.0;
+}
+
 std::vector<double> columnWeights(const Lights& lights, bool bsdfFindsEnvironment) {
     if (lights.selection == LightSelection::power)
         return lights.powers;
     std::vector<double> weights(lights.powers.size() - lights.firstColumn, 1.0);
-    if (lights.selection == LightSelection::tree && lights.environment && bsdfFindsEnvironment)
-        weights.back() = kWeightOfFoundEnvironment;
+    if (lights.selection == LightSelection::tree && lights.environment)
+        weights.back() = environmentWeight(lights, bsdfFindsEnvironment);
     if (!lights.tree.nodes.empty())
         weights.push_back(1.0);
     return weights;
@@ -113,13 +147,7 @@ Lights collectLights(const Scene& scene, const glm::vec3& environment, LightSele
     addPunctuals(scene, false, lights);
     const size_t atInfinity = lights.powers.size();
     addPunctuals(scene, true, lights);
-    lights.environmentRadiance = environment;
-    const double power = environmentPower(environment, scene.bounds);
-    requireFinite(power, "the environment");
-    if (power > 0.0) {
-        lights.environment = static_cast<uint32_t>(lights.powers.size());
-        lights.powers.push_back(power);
-    }
+    addEnvironment(scene, environment, lights);
     lights.selection = resolveLightSelection(selection, atInfinity, lights.powers.size());
     if (lights.selection == LightSelection::tree) {
         lights.tree = treeOf(scene, lights);

@@ -9,6 +9,7 @@
 
 #include "light/alias_table.h"
 #include "light/emitters.h"
+#include "light/environment.h"
 #include "light/light_tree.h"
 #include "scene/scene.h"
 
@@ -28,10 +29,11 @@ struct Lights {
     Emitters emitters;
     std::vector<uint32_t> punctuals;     // indices into Scene::punctualLights, in that order
     std::optional<uint32_t> environment; // number of the environment light
-    glm::vec3 environmentRadiance{0.0f};
-    std::vector<double> powers; // W, per light
-    LightTree tree;             // over the lights before firstColumn; empty but for LightSelection::tree
-    uint32_t firstColumn = 0;   // the first light of `table`
+    glm::vec3 environmentRadiance{0.0f}; // constant, or what the map's texels are multiplied by
+    std::optional<EnvironmentDistribution> environmentMap; // of the scene's map
+    std::vector<double> powers;                            // W, per light
+    LightTree tree;           // over the lights before firstColumn; empty but for LightSelection::tree
+    uint32_t firstColumn = 0; // the first light of `table`
     // Per light from firstColumn on, and then one more for the tree, if there is one; its pmf serves sampling
     // and MIS alike.
     std::vector<AliasEntry> table;
@@ -43,9 +45,9 @@ struct Lights {
 [[nodiscard]] LightSelection resolveLightSelection(LightSelection selection, size_t localLights,
                                                    size_t allLights);
 
-// `environment`: constant radiance from all sides; with `bsdfFindsEnvironment`, which is what MIS does,
-// LightSelection::tree picks it less often than others. Throws Error, naming the light, for a power that is
-// not finite.
+// `environment`: constant radiance from all sides, or what the texels of the scene's map are multiplied by.
+// With `bsdfFindsEnvironment`, which is what MIS does, LightSelection::tree picks a constant environment less
+// often than others. Throws Error, naming the light, for a power that is not finite.
 [[nodiscard]] Lights collectLights(const Scene& scene, const glm::vec3& environment, LightSelection selection,
                                    bool bsdfFindsEnvironment = true);
 

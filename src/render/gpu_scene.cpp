@@ -35,6 +35,8 @@ GpuScene::GpuScene(gpu::Device& device, const SceneData& data)
       uvs_(uploadTexels(device, "texture coordinates", data.uvs)),
       colors_(uploadTexels(device, "vertex colours", data.colors)),
       tangents_(uploadTexels(device, "tangents", data.tangents)),
+      environmentMap_(uploadTexels(device, "environment map", data.environmentMap)),
+      environmentQuads_(uploadTexels(device, "environment quads", data.environmentQuads)),
       albedoTable_(albedoTableFor(device, data.features)) {}
 
 void GpuScene::addTo(gpu::ResourceTable& resources) const {
@@ -50,13 +52,16 @@ void GpuScene::addTo(gpu::ResourceTable& resources) const {
     resources.set("triangleUvs", uvs_);
     resources.set("triangleColors", colors_);
     resources.set("triangleTangents", tangents_);
+    resources.set("environmentMap", environmentMap_);
+    resources.set("environmentQuads", environmentQuads_);
     resources.set("albedoTable", albedoTable_);
 }
 
 uint64_t GpuScene::bytes() const {
     return nodes_.bytes() + leafTriangles_.bytes() + normals_.bytes() + materials_.bytes() + lights_.bytes() +
            punctuals_.bytes() + lightTree_.bytes() + pictures_.bytes() + textures_.bytes() + uvs_.bytes() +
-           colors_.bytes() + tangents_.bytes() + albedoTable_.bytes();
+           colors_.bytes() + tangents_.bytes() + environmentMap_.bytes() + environmentQuads_.bytes() +
+           albedoTable_.bytes();
 }
 
 } // namespace lavalight

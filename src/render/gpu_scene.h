@@ -35,6 +35,8 @@ class GpuScene {
     gpu::Buffer uvs_;
     gpu::Buffer colors_;
     gpu::Buffer tangents_;
+    gpu::Buffer environmentMap_;
+    gpu::Buffer environmentQuads_;
     gpu::Buffer albedoTable_;
 };
 

@@ -29,6 +29,11 @@ std::vector<LedgerEntry> makeLedger(const Scene& scene, const RenderSettings& se
     if (tallies.saturatedSums > 0)
         ledger.push_back(
             {"saturated-sums", fmt::format("{} sums left the film's range", tallies.saturatedSums)});
+    if (scene.environmentMap && scene.environmentMap->badTexels > 0)
+        ledger.push_back(
+            {"environment-values",
+             fmt::format("{} texels of the environment map were negative or not finite, and are 0",
+                         scene.environmentMap->badTexels)});
     if (!scene.ignoredExtensions.empty())
         ledger.push_back({"ignored-extensions", fmt::format("{}", fmt::join(scene.ignoredExtensions, ", "))});
     return ledger;

@@ -71,7 +71,7 @@ std::vector<Ray> makeCameraRays(const Camera& camera, size_t count, uint32_t see
                                      static_cast<float>(y) + random.unit());
             const glm::vec2 ndc = 2.0f * position / glm::vec2(settings.width, settings.height) - 1.0f;
             const glm::vec3 onPlane = ndc.x * frame.cameraRight - ndc.y * frame.cameraUp;
-            if (frame.isOrthographic != 0)
+            if (frame.projection == kProjectionOrthographic)
                 rays.push_back(freeRay(frame.cameraPosition + onPlane, frame.cameraForward));
             else
                 rays.push_back(freeRay(frame.cameraPosition, glm::normalize(frame.cameraForward + onPlane)));

@@ -12,6 +12,10 @@
 namespace lavalight {
 namespace {
 
+static_assert(static_cast<uint32_t>(Projection::perspective) == kProjectionPerspective &&
+              static_cast<uint32_t>(Projection::orthographic) == kProjectionOrthographic &&
+              static_cast<uint32_t>(Projection::panorama) == kProjectionPanorama);
+
 // Slots of a wave where the settings leave it open. On lavapipe with two threads, larger waves make the fused
 // kernel no faster, and the wavefront by a tenth at 2^20; --time and Ctrl-C wait for the end of a wave.
 constexpr uint32_t kWaveSize = 1u << 18;
@@ -30,6 +34,13 @@ uint32_t samplesPerWave(uint32_t remaining, uint32_t waveSize, const Film& film)
     const uint32_t bandPixels =
         film.bands().front().rows * film.width(); // no band has more rows than the first
     return std::min(remaining, std::clamp(waveSize / bandPixels, kSamplesTogether, kMostSamplesTogether));
+}
+
+// Constant radiance, or what the map's texels are multiplied by.
+glm::vec3 environmentFactor(const Scene& scene, const RenderSettings& settings) {
+    const glm::vec3 unscaled =
+        scene.environmentMap ? glm::vec3(1.0f) : settings.environment.value_or(scene.environment);
+    return settings.environmentIntensity * unscaled;
 }
 
 } // namespace
@@ -52,19 +63,23 @@ RenderSettings resolveKernels(RenderSettings settings, bool isCpu) {
 }
 
 FrameParameters makeFrame(const Scene& scene, const Camera& camera, const RenderSettings& settings) {
-    const bool isOrthographic = camera.projection == Projection::orthographic;
-    const float halfHeight = isOrthographic ? camera.halfHeight : std::tan(0.5f * camera.verticalFov);
+    const float halfHeight = camera.projection == Projection::orthographic
+                                 ? camera.halfHeight
+                                 : std::tan(0.5f * camera.verticalFov);
     const float aspect = static_cast<float>(settings.width) / static_cast<float>(settings.height);
     FrameParameters frame{};
     frame.cameraPosition = camera.position;
-    frame.isOrthographic = isOrthographic ? 1 : 0;
+    frame.projection = static_cast<uint32_t>(camera.projection);
     frame.cameraRight = camera.right * (halfHeight * aspect);
     frame.cameraUp = camera.up * halfHeight;
     frame.cameraForward = camera.forward;
+    frame.lensRadius = camera.lensRadius;
+    frame.focusDistance = camera.focusDistance;
     frame.imageWidth = settings.width;
     frame.imageHeight = settings.height;
     frame.seed = settings.estimator.seed;
     frame.environmentLight = kNoLight;
+    frame.environmentRotation = settings.environmentRotation / 360.0f;
     frame.sceneCenter = scene.bounds.center();
     frame.sceneRadius = scene.bounds.radius();
     frame.maxBounces = settings.estimator.maxBounces;
@@ -78,6 +93,8 @@ FrameParameters makeFrame(const Scene& scene, const Camera& camera, const Render
 void setLights(FrameParameters& frame, const Lights& lights) {
     frame.environment = lights.environmentRadiance;
     frame.environmentLight = lights.environment.value_or(kNoLight);
+    frame.environmentWidth = lights.environmentMap ? lights.environmentMap->width : 0;
+    frame.environmentHeight = lights.environmentMap ? lights.environmentMap->height : 0;
     frame.firstLightColumn = lights.firstColumn;
     frame.lightColumns = static_cast<uint32_t>(lights.table.size());
 }
@@ -93,14 +110,14 @@ struct Renderer::Setup {
     static Setup make(gpu::Device& device, const Scene& scene, const Camera& camera,
                       const RenderSettings& settings, const KernelSource& source) {
         const EstimatorSettings& estimator = settings.estimator;
-        const Lights lights = collectLights(scene, settings.environment.value_or(scene.environment),
+        const Lights lights = collectLights(scene, environmentFactor(scene, settings),
                                             estimator.lightSelection, estimator.mis != Mis::off);
         std::future<SceneData> packed =
             std::async(std::launch::async, [&] { return packScene(scene, lights); });
         FrameParameters frame = makeFrame(scene, camera, settings);
         setLights(frame, lights);
-        EstimatorKernels kernels(device, settings.kernels, estimator, sceneFeatures(scene, lights), frame,
-                                 source);
+        const uint32_t features = sceneFeatures(scene, lights) | cameraFeatures(camera);
+        EstimatorKernels kernels(device, settings.kernels, estimator, features, frame, source);
         return {frame, std::move(kernels), packed.get(), lights.selection};
     }
 };

@@ -125,6 +125,15 @@ void packSurfaceDetail(const Scene& scene, SceneData& data) {
         data.tangents = packTangents(scene);
 }
 
+// Of each cell its scale, and the texel at its lower right corner: the last row is there twice.
+std::vector<glm::vec4> packEnvironmentMap(const Image& map, std::span<const float> scales) {
+    std::vector<glm::vec4> packed;
+    packed.reserve(scales.size());
+    for (size_t i = 0; i < scales.size(); ++i)
+        packed.emplace_back(map.pixels[i < map.pixels.size() ? i : i - map.width], scales[i]);
+    return packed;
+}
+
 } // namespace
 
 SceneData packScene(const Scene& scene, const Lights& lights) {
@@ -139,6 +148,10 @@ SceneData packScene(const Scene& scene, const Lights& lights) {
     data.lights = packLights(lights, data.bvh);
     data.punctuals = packPunctuals(scene, lights);
     data.lightTree = packLightTree(lights.tree, scene.bounds.radius());
+    if (lights.environmentMap) {
+        data.environmentMap = packEnvironmentMap(scene.environmentMap->image, lights.environmentMap->scales);
+        data.environmentQuads = lights.environmentMap->quads;
+    }
     return data;
 }
 

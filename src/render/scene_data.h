@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "accel/bvh.h"
+#include "light/environment.h"
 #include "light/lights.h"
 #include "render/gpu_textures.h"
 #include "scene/scene.h"
@@ -26,6 +27,8 @@ struct SceneData {
     std::vector<TriangleUvs> uvs;
     std::vector<TriangleColors> colors;
     std::vector<TriangleTangents> tangents;
+    std::vector<glm::vec4> environmentMap; // per cell of light/environment.h
+    std::vector<EnvironmentQuad> environmentQuads;
     uint32_t features; // kFeature...
 };
 

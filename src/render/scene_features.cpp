@@ -89,9 +89,15 @@ uint32_t sceneFeatures(const Scene& scene, const Lights& lights) {
         std::find(transparent.begin(), transparent.end(), true) != transparent.end() ? kFeatureAlpha : 0u;
     features |= lights.emitters.list.empty() ? 0u : kFeatureTriangleLights;
     features |= lights.punctuals.empty() ? 0u : kFeaturePunctualLights;
-    features |= lights.environment ? kFeatureEnvironment : 0u;
+    if (lights.environment)
+        features |= lights.environmentMap ? kFeatureEnvironmentMap : kFeatureEnvironment;
     features |= lights.tree.nodes.empty() ? 0u : kFeatureLightTree;
     return features;
+}
+
+uint32_t cameraFeatures(const Camera& camera) {
+    const bool isSpecial = camera.projection == Projection::panorama || camera.lensRadius > 0.0f;
+    return isSpecial ? kFeatureSpecialCamera : 0u;
 }
 
 } // namespace lavalight

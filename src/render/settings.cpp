@@ -49,6 +49,10 @@ void checkSettings(const RenderSettings& settings) {
         requireRange("--wave-size", settings.waveSize, 64, 4000000);
     requireRange("--time", settings.seconds, 0, 1e9);
     requireRange("--target-error", settings.targetError, 0, 1e9);
+    if (!std::isfinite(settings.environmentRotation))
+        throw UsageError(
+            fmt::format("--env-rotation: {} is no angle in degrees", settings.environmentRotation));
+    requireRange("--env-intensity", settings.environmentIntensity, 0, 1e30);
     checkEstimator(settings.estimator);
 }
 
@@ -80,6 +84,12 @@ std::vector<std::pair<std::string, std::string>> describe(const RenderSettings& 
     if (settings.environment)
         add("env", fmt::format("{},{},{}", settings.environment->x, settings.environment->y,
                                settings.environment->z));
+    if (!settings.environmentFile.empty()) {
+        add("env", settings.environmentFile);
+        add("env-rotation", settings.environmentRotation);
+    }
+    add("env-intensity", settings.environmentIntensity);
+    pairs.insert(pairs.end(), settings.cameraOptions.begin(), settings.cameraOptions.end());
     return pairs;
 }
 

@@ -68,6 +68,10 @@ struct RenderSettings {
     uint32_t waveSize = 0; // path slots of a wave; 0: by the kernels
     uint32_t bandRows = 0; // rows of a film band; 0: as many as a storage buffer of the device holds
     std::optional<glm::vec3> environment; // constant radiance that replaces the scene's
+    std::string environmentFile;          // where Scene::environmentMap came from; empty: nowhere
+    float environmentRotation = 0.0f;     // of the map about +Y, degrees, counter-clockwise seen from above
+    std::vector<std::pair<std::string, std::string>> cameraOptions; // as given, for describe() alone
+    float environmentIntensity = 1.0f; // multiplies the environment, whatever it is
 };
 
 constexpr uint32_t kMaxBounceLimit = 1024; // counters of every bounce are kept for the whole wave

@@ -10,7 +10,9 @@
 
 #include <glm/glm.hpp>
 
+#include "image/image.h"
 #include "image/picture.h"
+
 
 namespace lavalight {
 
@@ -114,7 +116,8 @@ struct Mesh {
     std::vector<glm::vec4> tangents{};
 };
 
-enum class Projection { perspective, orthographic };
+// A panorama shows all directions, by the convention of environment maps.
+enum class Projection { perspective, orthographic, panorama };
 
 struct Camera {
     std::string name;
@@ -126,6 +129,16 @@ struct Camera {
     float verticalFov = 0.8f;    // perspective: full angle, radians
     float halfHeight = 1.0f;     // orthographic: glTF's ymag, metres
     std::optional<float> aspect; // width / height that the file asks for
+    float lensRadius = 0.0f;     // perspective: metres; 0: all is sharp
+    float focusDistance = 1.0f;  // metres along `forward` to the plane that is sharp
+};
+
+// Radiance from all directions, as an equirectangular picture: the middle of its top row is +Y, the middle of
+// the picture is +X, and +Z lies a quarter of its width to the right of that.
+struct EnvironmentMap {
+    std::string source;     // file
+    Image image;            // finite, not negative
+    uint64_t badTexels = 0; // that were not, and had to be changed
 };
 
 enum class PunctualKind { point, spot, directional };
@@ -170,7 +183,8 @@ struct Scene {
     std::vector<Camera> cameras; // never empty after import: one that frames the scene stands in
     std::vector<PunctualLight> punctualLights;
     std::vector<Animation> animations;
-    glm::vec3 environment{0.0f}; // constant radiance from every direction that hits nothing
+    glm::vec3 environment{0.0f};                  // constant radiance from every direction that hits nothing
+    std::optional<EnvironmentMap> environmentMap; // instead of it
     Bounds bounds;
     std::vector<std::string> warnings;          // what was not understood, one line each, with names
     std::vector<std::string> ignoredExtensions; // exact names; they enter the bias ledger

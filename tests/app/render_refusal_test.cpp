@@ -166,6 +166,16 @@ TEST_F(RenderRefusal, UnknownCameraIsToldTheCamerasThereAre) {
     expectRefusal({"--camera", "1"}, kWrongUsage, "0 \"camera\"");
 }
 
+TEST_F(RenderRefusal, EnvironmentMapsThatAreNone) {
+    write("text.hdr", "This is a text.\n");
+    write("text.exr", "This is a text.\n");
+    for (const char* name : {"text.hdr", "text.exr", "none.hdr", "none.exr"})
+        expectRefusal({"--env", name}, kFailed, name);
+    expectRefusal({"--env", "picture.png"}, kWrongUsage, "picture.png");
+    expectRefusal({"--env-rotation", "90"}, kWrongUsage, "--env FILE");
+    expectRefusal({"--env-intensity", "-1"}, kWrongUsage, "--env-intensity");
+}
+
 TEST_F(RenderRefusal, UnknownDeviceIsToldTheDevicesThereAre) {
     expectRefusal({"--device", "no-such"}, kFailed, "no-such");
     expectRefusal({"--device", "99"}, kFailed, "99");

@@ -41,7 +41,7 @@ void main() {
     waveRange[1] = WaveRange(1u, 2u, 3u, 4u, 5u, 6u, 7u, 8u, 9u);
     frameParameters[1] = FrameParameters(vec3(1, 2, 3), 4u, vec3(5, 6, 7), 8u, vec3(9, 10, 11), 12u,
                                          vec3(13, 14, 15), 16u, vec3(17, 18, 19), 20u, vec3(21, 22, 23), 24, 25u, 26u, 27u,
-                                         28, 29, 30u, 31u, 32u);
+                                         28, 29, 30u, 31u, 32u, 33u, 34u, 35, 36, 37, 38u, 39u, 40u);
     normals[1] = TriangleNormals(1u, 2u, 3u, 4u);
     tracedHit[1] = TracedHit(1, 2u);
     bvhNode[1] = loadNode(1u);

@@ -30,7 +30,8 @@ const DispatchSize kDispatchSize{1, 2, 3, 4};
 const WaveRange kWaveRange{1, 2, 3, 4, 5, 6, 7, 8, 9};
 const FrameParameters kFrameParameters{{1, 2, 3},    4,  {5, 6, 7},    8,  {9, 10, 11}, 12, {13, 14, 15}, 16,
                                        {17, 18, 19}, 20, {21, 22, 23}, 24, 25,          26, 27,           28,
-                                       29,           30, 31,           32};
+                                       29,           30, 31,           32, 33,          34, 35,           36,
+                                       37,           38, 39,           40};
 const TriangleNormals kTriangleNormals{1, 2, 3, 4};
 const TracedHit kTracedHit{1, 2};
 // Loaded through texel buffers; what no kernel loads is 0.

@@ -16,9 +16,8 @@ struct Answer {
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 21, std430) writeonly buffer Out { Answer answers[]; };
-layout(push_constant) uniform Push {
-    FrameParameters frame;
-};
+layout(set = 0, binding = BINDING_FRAME, std140) uniform Frame { FrameParameters frame; };
+layout(push_constant) uniform Push { uint bothSides; };
 
 void main() {
     const uint i = gl_GlobalInvocationID.x;
@@ -26,7 +25,7 @@ void main() {
         return;
     const SampleKey key = SampleKey(5u, i, 0u, 1u);
     const uvec2 bits = sampleBits2D(key, kDimensionLight);
-    const Receiver receiver = Receiver(frame.cameraPosition, frame.cameraUp, frame.isOrthographic != 0u);
+    const Receiver receiver = Receiver(frame.cameraPosition, frame.cameraUp, bothSides != 0u);
     const LightPick pick = pickLight(frame, receiver, bits.x);
     const LightSample drawn = sampleLight(frame, receiver, receiver.n, bits);
     answers[i] = Answer(drawn.wi, drawn.pdf, drawn.radiance, pick.light, pick.pmf, lightPmf(frame, receiver, pick.light),

@@ -85,14 +85,18 @@ class LightTest : public DeviceTest {
         const GpuScene gpuScene(device(), packScene(scene, lights));
         gpu::ResourceTable resources;
         gpuScene.addTo(resources);
-        KernelRunner runner(device(), test_kernels::find("light_test"), resources);
         FrameParameters frame{};
         frame.cameraPosition = from;
         frame.cameraUp = {0.0f, 0.0f, 1.0f}; // the receiver's normal
         setLights(frame, lights);
         frame.sceneCenter = scene.bounds.center();
         frame.sceneRadius = scene.bounds.radius();
-        return runner.generate<Answer>(kSamples, frame);
+        gpu::Buffer uniforms(device(), "frame", sizeof frame, gpu::BufferUse::uniform);
+        uniforms.upload(std::as_bytes(std::span(&frame, 1)));
+        resources.set("Frame", uniforms);
+        KernelRunner runner(device(), test_kernels::find("light_test"), resources);
+        const uint32_t bothSides = 0;
+        return runner.generate<Answer>(kSamples, bothSides);
     }
 };
 

@@ -5,6 +5,7 @@
 const uint kDisk = 0u;
 const uint kCosineHemisphere = 1u;
 const uint kTriangle = 2u;
+const uint kLinear = 3u; // from questions[i].z to .w
 
 struct Answer {
     vec3 point;          // of the warp at `u`
@@ -25,6 +26,8 @@ void main() {
         answers[i] = Answer(vec3(squareToDisk(u.xy), 0.0), squareToDiskPdf());
     else if (warp == kCosineHemisphere)
         answers[i] = Answer(squareToCosineHemisphere(u.xy), squareToCosineHemispherePdf(u.z));
+    else if (warp == kLinear)
+        answers[i] = Answer(vec3(unitToLinear(u.x, u.z, questions[i].w)), unitToLinearPdf(u.x, u.z, questions[i].w));
     else
         answers[i] = Answer(vec3(squareToTriangle(u.xy), 0.0), squareToTrianglePdfArea(0.5));
 }

@@ -17,7 +17,7 @@
 namespace lavalight::test {
 namespace {
 
-enum class Warp : uint32_t { disk, cosineHemisphere, triangle }; // as in the kernel
+enum class Warp : uint32_t { disk, cosineHemisphere, triangle, linear }; // as in the kernel
 
 struct Answer { // as in the kernel
     glm::vec3 point;
@@ -119,6 +119,30 @@ TEST_F(WarpTest, TriangleHasTheDensityThatItsPdfSays) {
                 expected[2 * (row * n + column) + half] =
                     half == 1 && column + row + 1 == n ? 0.0 : pdf * 0.5 / (n * n) * kSamples;
     EXPECT_GT(chiSquare(counts, expected).pValue, kLeastPValue);
+}
+
+TEST_F(WarpTest, LinearHasTheDensityThatItsPdfSays) {
+    constexpr size_t kBins = 50;
+    for (const glm::vec2 ends : {glm::vec2(0.2f, 1.0f), glm::vec2(3.0f, 0.0f), glm::vec2(0.0f, 1e30f),
+                                 glm::vec2(2.0f, 2.0f), glm::vec2(0.0f, 0.0f)}) {
+        Random random(1);
+        std::vector<glm::vec4> u;
+        for (size_t i = 0; i < kSamples; ++i)
+            u.emplace_back(random.unit(), 0.0f, ends.x, ends.y);
+        std::vector<uint32_t> counts(kBins);
+        for (const Answer& answer : ask(Warp::linear, u)) {
+            ASSERT_TRUE(answer.point.x >= 0.0f && answer.point.x <= 1.0f) << answer.point.x;
+            ++counts[binOf(answer.point.x, kBins)];
+        }
+        std::vector<glm::vec4> middles; // the density is linear, so the midpoint rule is exact
+        for (size_t i = 0; i < kBins; ++i)
+            middles.emplace_back((static_cast<float>(i) + 0.5f) / kBins, 0.0f, ends.x, ends.y);
+        std::vector<double> expected;
+        for (const double pdf : pdfs(Warp::linear, middles))
+            expected.push_back(pdf / kBins * kSamples);
+        EXPECT_NEAR(std::accumulate(expected.begin(), expected.end(), 0.0), kSamples, 1e-5 * kSamples);
+        EXPECT_GT(chiSquare(counts, expected).pValue, kLeastPValue) << ends.x << " to " << ends.y;
+    }
 }
 
 TEST_F(WarpTest, CornersOfTheSquareStayInTheDomain) {

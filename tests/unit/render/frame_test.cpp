@@ -64,7 +64,7 @@ TEST(Frame, PerspectiveKeepsTheVerticalFieldOfView) {
     const float half = std::tan(0.5f);
     for (const auto& [width, height] : {std::pair{200u, 100u}, std::pair{50u, 100u}}) {
         const FrameParameters frame = makeFrame(Scene(), camera, sized(width, height));
-        EXPECT_EQ(frame.isOrthographic, 0u);
+        EXPECT_EQ(frame.projection, kProjectionPerspective);
         EXPECT_EQ(frame.imageWidth, width);
         EXPECT_EQ(frame.imageHeight, height);
         expectNear(frame.cameraUp, half * camera.up);
@@ -79,7 +79,7 @@ TEST(Frame, OrthographicSpansTheCamerasHeight) {
     Camera camera = tiltedCamera();
     camera.projection = Projection::orthographic;
     const FrameParameters frame = makeFrame(Scene(), camera, sized(100, 50));
-    EXPECT_EQ(frame.isOrthographic, 1u);
+    EXPECT_EQ(frame.projection, kProjectionOrthographic);
     expectNear(frame.cameraUp, 2.5f * camera.up);
     expectNear(frame.cameraRight, 5.0f * camera.right);
 }

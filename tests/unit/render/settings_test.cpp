@@ -139,6 +139,17 @@ TEST(Settings, DescriptionNamesEveryOptionWithItsValue) {
     EXPECT_EQ(options.at("env"), "0.5,1,2.25");
 }
 
+TEST(Settings, DescriptionNamesTheMapAndHowItIsUsed) {
+    RenderSettings settings = goodSettings();
+    settings.environmentFile = "garden.hdr";
+    settings.environmentRotation = 12.5f;
+    settings.environmentIntensity = 3.0f;
+    const auto options = described(settings);
+    EXPECT_EQ(options.at("env"), "garden.hdr");
+    EXPECT_EQ(options.at("env-rotation"), "12.5");
+    EXPECT_EQ(options.at("env-intensity"), "3");
+}
+
 TEST(Settings, DescriptionOfTheScenesOwnEnvironmentNamesNone) {
     EXPECT_EQ(described(goodSettings()).count("env"), 0u);
 }

@@ -1,0 +1,153 @@
+// What shines where rays hit nothing: one radiance from all sides, or an equirectangular map.
+#include "lib/equirectangular.glsl"
+#include "lib/features.glsl"
+#include "lib/onb.glsl"
+#include "lib/warp.glsl"
+#include "scene/light_sample.glsl"
+#include "shared/bindings.h"
+#include "shared/frame.h"
+
+layout(set = 0, binding = BINDING_ENVIRONMENT_MAP) uniform usamplerBuffer environmentMap; // texel and scale of each cell
+layout(set = 0, binding = BINDING_ENVIRONMENT_TABLE) uniform usamplerBuffer environmentQuads; // light/environment.h
+
+bool hasEnvironmentMap(FrameParameters frame) {
+    return sceneHas(kFeatureEnvironmentMap) && frame.environmentWidth > 0u;
+}
+
+// The map turned by --env-rotation: what was in direction phi is in direction phi - rotation then.
+vec2 environmentPoint(FrameParameters frame, vec3 wi) {
+    vec2 uv = directionToEquirectangular(wi);
+    uv.x = fract(uv.x + frame.environmentRotation);
+    return uv;
+}
+
+vec4 fetchEnvironment(FrameParameters frame, uvec2 texel) {
+    return uintBitsToFloat(texelFetch(environmentMap, int(texel.y * frame.environmentWidth + texel.x)));
+}
+
+// The corners of a cell (light/environment.h).
+struct EnvironmentCell {
+    vec3 topLeft;
+    vec3 topRight;
+    vec3 bottomLeft;
+    vec3 bottomRight;
+    float scale; // of the density
+};
+
+EnvironmentCell fetchEnvironmentCell(FrameParameters frame, uvec2 cell) {
+    const uint left = (cell.x == 0u ? frame.environmentWidth : cell.x) - 1u;
+    const uint above = max(cell.y, 1u) - 1u;
+    const vec4 last = fetchEnvironment(frame, cell);
+    return EnvironmentCell(fetchEnvironment(frame, uvec2(left, above)).xyz, fetchEnvironment(frame, uvec2(cell.x, above)).xyz,
+                           fetchEnvironment(frame, uvec2(left, cell.y)).xyz, last.xyz, last.w);
+}
+
+vec3 interpolated(EnvironmentCell cell, vec2 place) {
+    return mix(mix(cell.topLeft, cell.topRight, place.x), mix(cell.bottomLeft, cell.bottomRight, place.x), place.y);
+}
+
+float environmentDensity(EnvironmentCell cell, vec2 place) {
+    return cell.scale * dot(interpolated(cell, place), vec3(1.0));
+}
+
+// The parallels v that bound a row of cells.
+vec2 environmentRow(FrameParameters frame, uint row) {
+    return clamp((vec2(row) + vec2(-0.5, 0.5)) / float(frame.environmentHeight), 0.0, 1.0);
+}
+
+// A cell, and a place in it by u and v.
+struct EnvironmentPlace {
+    uvec2 cell;
+    vec2 place;
+};
+
+EnvironmentPlace environmentPlace(FrameParameters frame, vec2 uv) {
+    const vec2 p = uv * vec2(frame.environmentWidth, frame.environmentHeight) + 0.5;
+    const uvec2 cell = min(uvec2(p), uvec2(frame.environmentWidth, frame.environmentHeight));
+    return EnvironmentPlace(uvec2(cell.x % frame.environmentWidth, cell.y), p - vec2(cell));
+}
+
+vec3 environmentRadiance(FrameParameters frame, vec3 wi) {
+    if (!hasEnvironmentMap(frame))
+        return frame.environment;
+    const EnvironmentPlace p = environmentPlace(frame, environmentPoint(frame, wi));
+    return frame.environment * interpolated(fetchEnvironmentCell(frame, p.cell), p.place);
+}
+
+// A constant environment is sampled by the cosine around the receiver's normal, which leaves a diffuse surface no variance
+// but that of visibility; what comes from behind is left to BSDF rays. cosTheta: between normal and direction.
+float environmentPdf(FrameParameters frame, vec3 wi, float cosTheta) {
+    if (!hasEnvironmentMap(frame))
+        return squareToCosineHemispherePdf(cosTheta);
+    const vec2 uv = environmentPoint(frame, wi);
+    EnvironmentPlace p = environmentPlace(frame, uv);
+    p.place.y = equirectangularRowToUnit(uv.y, environmentRow(frame, p.cell.y));
+    return environmentDensity(fetchEnvironmentCell(frame, p.cell), p.place);
+}
+
+const float kLargestPlaceInCell = 1.0 - 5.9604644775390625e-8; // 1 - 2^-24
+
+// Goes with the first of two parts with probability p; u becomes the place within the part.
+bool isSecond(float p, inout float u) {
+    const bool second = u >= p;
+    u = min(second ? (u - p) / (1.0 - p) : u / p, kLargestPlaceInCell);
+    return second;
+}
+
+EnvironmentPlace pickEnvironmentCell(FrameParameters frame, vec2 u) {
+    const uvec2 cells = uvec2(frame.environmentWidth, frame.environmentHeight + 1u);
+    EnvironmentPlace pick = EnvironmentPlace(uvec2(0u), u);
+    uint start = 0u;
+    for (int level = findMSB(max(cells.x, cells.y) - 1u); level >= 0; --level) {
+        const uvec2 quads = (cells + (2u << level) - 1u) >> (level + 1);
+        const vec3 quad =
+            uintBitsToFloat(texelFetch(environmentQuads, int(start + pick.cell.y * quads.x + pick.cell.x)).xyz);
+        const bool isBottom = isSecond(quad.x, pick.place.y);
+        const bool isRight = isSecond(isBottom ? quad.z : quad.y, pick.place.x);
+        pick.cell = 2u * pick.cell + uvec2(isRight ? 1u : 0u, isBottom ? 1u : 0u);
+        start += quads.x * quads.y;
+    }
+    return pick;
+}
+
+// Place by the density of environmentDensity: a row by what both its ends have, then along it.
+vec2 squareToEnvironmentCell(vec2 u, EnvironmentCell cell) {
+    const vec4 ends = vec4(dot(cell.topLeft, vec3(1.0)), dot(cell.topRight, vec3(1.0)), dot(cell.bottomLeft, vec3(1.0)),
+                           dot(cell.bottomRight, vec3(1.0)));
+    const float y = unitToLinear(u.y, ends.x + ends.y, ends.z + ends.w);
+    const vec2 row = mix(ends.xy, ends.zw, y);
+    return vec2(unitToLinear(u.x, row.x, row.y), y);
+}
+
+LightSample sampleEnvironmentMap(FrameParameters frame, vec2 u) {
+    const EnvironmentPlace pick = pickEnvironmentCell(frame, u);
+    const EnvironmentCell cell = fetchEnvironmentCell(frame, pick.cell);
+    const vec2 place = squareToEnvironmentCell(pick.place, cell);
+    const float column = (float(pick.cell.x) - 0.5 + place.x) / float(frame.environmentWidth);
+    LightSample light = kNoLightSample;
+    light.wi = unitToEquirectangularRow(column - frame.environmentRotation, place.y, environmentRow(frame, pick.cell.y));
+    light.radiance = environmentRadiance(frame, light.wi);
+    light.pdf = environmentDensity(cell, place);
+    return light;
+}
+
+LightSample sampleConstantEnvironment(FrameParameters frame, vec3 n, vec2 u) {
+    const vec3 local = squareToCosineHemisphere(u);
+    LightSample light = kNoLightSample;
+    light.wi = toWorld(makeBasis(n), local);
+    light.radiance = frame.environment;
+    light.pdf = squareToCosineHemispherePdf(local.z);
+    return light;
+}
+
+// `reach`: a distance beyond the scene.
+LightSample sampleEnvironment(FrameParameters frame, vec3 from, vec3 n, vec2 u, float reach) {
+    LightSample light = kNoLightSample;
+    if (sceneHas(kFeatureEnvironment))
+        light = sampleConstantEnvironment(frame, n, u);
+    if (hasEnvironmentMap(frame))
+        light = sampleEnvironmentMap(frame, u);
+    light.end = from + reach * light.wi;
+    light.isDelta = false;
+    return light;
+}

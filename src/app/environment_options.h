@@ -1,0 +1,35 @@
+// The options that say what shines where nothing is hit.
+#pragma once
+
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "render/settings.h"
+#include "scene/scene.h"
+
+namespace lavalight {
+
+// Declares options on a parser and turns their values into settings. Must outlive the parsing; the parser
+// points into it.
+class EnvironmentOptions {
+  public:
+    explicit EnvironmentOptions(CLI::App& parser);
+    EnvironmentOptions(const EnvironmentOptions&) = delete;
+    EnvironmentOptions& operator=(const EnvironmentOptions&) = delete;
+
+    // Throws UsageError naming the option and what it takes.
+    void applyTo(RenderSettings& settings) const;
+
+  private:
+    CLI::App* parser_; // asked which options were given
+    std::string environment_;
+    float rotation_ = 0.0f;
+    float intensity_ = 1.0f;
+};
+
+// Reads the map that the settings name, if they do, into the scene. What had to be changed in it becomes a
+// warning of the scene. Throws Error for a file that is no map.
+void readEnvironmentMap(const RenderSettings& settings, Scene& scene);
+
+} // namespace lavalight

@@ -1,0 +1,15 @@
+// A perspective camera by where it is and what it looks at.
+#pragma once
+
+#include <optional>
+
+#include "scene/scene.h"
+
+namespace lavalight {
+
+// 45 degrees high, without an aspect ratio of its own. Nothing where `at` is `from`, or `up` is along the
+// view.
+[[nodiscard]] std::optional<Camera> lookAtCamera(const glm::vec3& from, const glm::vec3& at,
+                                                 const glm::vec3& up);
+
+} // namespace lavalight
