@@ -57,13 +57,17 @@ Scene loadScene(const std::string& nameOrPath, const ImportOptions& options) {
         if (sceneName(file) == nameOrPath)
             return importGltf(nameOrPath, file.bytes, options);
     }
-    if (const auto triangles = countAfter("dense-", nameOrPath)) {
+    const auto triangles = countAfter("dense-", nameOrPath);
+    const auto lamps = countAfter("lamps-", nameOrPath);
+    if ((triangles || lamps) && options.seconds)
+        throw UsageError(fmt::format("{} has no animation that a time could be asked of", nameOrPath));
+    if (triangles) {
         if (*triangles > kMostTriangles)
             throw Error(fmt::format("cannot build {}: at most {} triangles are supported", nameOrPath,
                                     kMostTriangles));
         return makeDenseScene(*triangles);
     }
-    if (const auto lamps = countAfter("lamps-", nameOrPath))
+    if (lamps)
         return makeLampsScene(*lamps);
     std::error_code code;
     if (!std::filesystem::exists(nameOrPath, code))

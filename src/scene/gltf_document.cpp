@@ -130,8 +130,8 @@ Json rootExtensions(const Json& json, const std::string& source) {
 // files or decode images stays out of its sight, because it follows offsets and addresses unchecked.
 tinygltf::Model parseModel(Json& json, const std::string& source) {
     Json part;
-    for (const char* section : {"asset", "accessors", "bufferViews", "cameras", "materials", "meshes",
-                                "nodes", "scene", "scenes"}) {
+    for (const char* section : {"asset", "accessors", "animations", "bufferViews", "cameras", "materials",
+                                "meshes", "nodes", "scene", "scenes", "skins"}) {
         if (json.contains(section))
             part[section] = std::move(json[section]);
     }
@@ -184,7 +184,6 @@ GltfDocument parseGltf(std::string_view bytes, const GltfSource& source) {
     checkVersion(json, source.name);
     sortExtensions(json, document);
     document.textureCount = sizeOf(json, "textures");
-    document.animationCount = sizeOf(json, "animations");
     document.buffers = loadBuffers(json, container.binary, source);
     decodeMeshopt(json, document.buffers, source.name);
     decodeDraco(json, document.buffers, source.name);

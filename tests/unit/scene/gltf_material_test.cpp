@@ -229,16 +229,5 @@ TEST(GltfExtensions, RequiredAndUnsupportedIsAnErrorWithTheExactName) {
     EXPECT_NE(importError(builder).find("EXT_nobody_knows"), std::string::npos);
 }
 
-TEST(GltfExtensions, MotionIsNamedAsNotEvaluated) {
-    GltfBuilder builder = triangleOf(Json::object());
-    builder.json["skins"] = {{{"joints", {0}}}};
-    builder.json["nodes"][0]["skin"] = 0;
-    builder.json["animations"] = {Json::object()};
-    builder.json["meshes"][0]["primitives"][0]["targets"] = {{{"POSITION", 0}}};
-    const Scene scene = builder.import();
-    for (const char* feature : {"skins", "animations", "morph targets"})
-        EXPECT_EQ(warningsWith(scene, feature), 1) << feature;
-}
-
 } // namespace
 } // namespace lavalight::test
