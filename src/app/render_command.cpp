@@ -5,7 +5,9 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <memory>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -67,12 +69,9 @@ void failOnValidation(const gpu::Device& device) {
                                 messages.front()));
 }
 
-Scene loadWithWarnings(const std::string& name, const ImportOptions& options,
-                       const RenderSettings& settings) {
+Scene loadLit(const std::string& name, const ImportOptions& options, const RenderSettings& settings) {
     Scene scene = loadScene(name, options);
     readEnvironmentMap(settings, scene);
-    for (const std::string& warning : scene.warnings)
-        spdlog::warn("{}", warning);
     return scene;
 }
 
@@ -131,27 +130,59 @@ void printSummary(const RenderReport& report) {
 } // namespace
 
 RenderCommand::RenderCommand(CLI::App& app)
-    : Command(app, "render", "Render a scene to an image"), options_(parser()), sceneOptions_(parser()) {
+    : Command(app, "render", "Render a scene to an image"), options_(parser()), sceneOptions_(parser()),
+      sequence_(parser()) {
     parser()
         .add_option("scene", scene_,
                     "Built-in scene (" + fmt::format("{}", fmt::join(builtinNames(), ", ")) +
                         ") or .gltf or .glb file")
         ->type_name("SCENE");
     parser()
-        .add_option("-o,--output", exr_, "EXR file; default: the scene's name, unless --png is given")
+        .add_option("-o,--output", outputs_.exr, "EXR file; default: the scene's name, unless --png is given")
         ->type_name("OUT.exr");
-    parser().add_option("--png", png_, "PNG file to look at (sRGB)")->type_name("OUT.png");
+    parser().add_option("--png", outputs_.png, "PNG file to look at (sRGB)")->type_name("OUT.png");
     parser().add_option("--exposure", exposure_, "Stops of exposure for the PNG")->type_name("STOPS");
     parser()
-        .add_option("--report", report_, "JSON report: times, rays, memory, ledger")
+        .add_option("--report", outputs_.report, "JSON report: times, rays, memory, ledger")
         ->type_name("REPORT.json");
     parser().add_flag("--quiet", quiet_, "No messages but errors, no summary");
 }
 
-void RenderCommand::requireOutputs() const {
+// What lasts from one frame to the next: kernels are compiled again only where a frame's features differ.
+struct RenderCommand::Session {
+    RenderSettings settings;
+    std::optional<gpu::Device> device{};
+    std::optional<EstimatorKernels> kernels{};
+    std::optional<Camera> standIn{}; // of the first frame: its scene moves, the picture must not
+
+    // The camera of a frame; the first one also says what is wrong with the scene, and the image's size.
+    [[nodiscard]] Camera view(const Scene& scene, const RenderOptions& options) {
+        if (!device) {
+            for (const std::string& warning : scene.warnings)
+                spdlog::warn("{}", warning);
+            if (!scene.hasOwnCamera)
+                standIn = options.cameraOf(scene);
+        }
+        const Camera camera = standIn ? *standIn : options.cameraOf(scene);
+        settings = resolveSize(settings, camera);
+        checkSettings(settings);
+        return camera;
+    }
+
+    // The kernels of the frame before serve, if they do.
+    [[nodiscard]] std::unique_ptr<Renderer> makeRenderer(const Scene& scene, const Camera& camera) {
+        if (!kernels)
+            return std::make_unique<Renderer>(*device, scene, camera, settings);
+        EstimatorKernels earlier = std::move(*kernels);
+        kernels.reset();
+        return std::make_unique<Renderer>(*device, scene, camera, settings, std::move(earlier));
+    }
+};
+
+void RenderCommand::requireOutputs(const Outputs& outputs) const {
     if (!std::isfinite(exposure_))
         throw UsageError(fmt::format("--exposure: {} is no number of stops", exposure_));
-    const std::array<std::string, 3> files{exr_, png_, report_};
+    const std::array<std::string, 3> files{outputs.exr, outputs.png, outputs.report};
     for (auto file = files.begin(); file != files.end(); ++file) {
         if (file->empty())
             continue;
@@ -161,56 +192,73 @@ void RenderCommand::requireOutputs() const {
     }
 }
 
-void RenderCommand::writeImages(const Rendering& rendering, const RenderReport& report) const {
-    if (!exr_.empty())
-        writeExr(exr_, rendering, exrMetadata(report));
-    if (!png_.empty())
-        writePng(png_, rendering.radiance, exposure_);
+void RenderCommand::writeImages(const Outputs& files, const Rendering& rendering,
+                                const RenderReport& report) const {
+    if (!files.exr.empty())
+        writeExr(files.exr, rendering, exrMetadata(report));
+    if (!files.png.empty())
+        writePng(files.png, rendering.radiance, exposure_);
 }
 
 int RenderCommand::run() {
     if (quiet_)
         configureLog(LogLevel::quiet);
-    if (exr_.empty() && png_.empty())
-        exr_ = std::filesystem::path(scene_).stem().string() + ".exr";
-    RenderSettings settings = options_.settings();
-    requireOutputs();
+    if (outputs_.exr.empty() && outputs_.png.empty())
+        outputs_.exr = std::filesystem::path(scene_).stem().string() + ".exr";
+    Session session{options_.settings()};
+    if (sequence_.isAsked())
+        return runSequence(session);
+    requireOutputs(outputs_);
+    return renderMoment(outputs_, sceneOptions_.importOptions(), session);
+}
 
+int RenderCommand::runSequence(Session& session) const {
+    const FrameRange range = sequence_.range();
+    for (uint32_t frame = range.first; frame < range.end; ++frame) {
+        const Outputs files{numberedFile(outputs_.exr, frame), numberedFile(outputs_.png, frame),
+                            numberedFile(outputs_.report, frame)};
+        requireOutputs(files);
+        const ImportOptions moment = sceneOptions_.importOptionsAt(sequence_.secondsOf(frame));
+        if (const int code = renderMoment(files, moment, session); code != 0)
+            return code;
+    }
+    return 0;
+}
+
+int RenderCommand::renderMoment(const Outputs& files, const ImportOptions& moment, Session& session) const {
     RenderReport report;
     Stopwatch watch;
-    report.import = sceneOptions_.importOptions();
-    const Scene scene = loadWithWarnings(scene_, report.import, settings);
-    const Camera camera = options_.cameraOf(scene);
-    settings = resolveSize(settings, camera);
-    checkSettings(settings);
+    report.import = moment;
+    const Scene scene = loadLit(scene_, moment, session.settings);
+    const Camera camera = session.view(scene, options_);
     watch.lap("load");
-
-    gpu::Device device(options_.device());
+    if (!session.device)
+        session.device.emplace(options_.device());
     watch.lap("device");
-    Renderer renderer(device, scene, camera, settings);
+    const std::unique_ptr<Renderer> renderer = session.makeRenderer(scene, camera);
     watch.lap("prepare");
 
     const InterruptGuard guard; // until all files are written: Ctrl-C loses no image
-    const RenderRun run = renderInterruptibly(renderer, guard, !quiet_);
+    const RenderRun run = renderInterruptibly(*renderer, guard, !quiet_);
     report.stop = run.stop;
     report.renderSeconds = watch.lap("render");
-    failOnValidation(device);
-
-    const Rendering rendering = renderer.rendering();
-    fillInputs(report, scene, camera, renderer.settings());
-    fillResults(report, renderer, device, rendering);
-    report.ledger = makeLedger(scene, settings, report.tallies, report.stop);
-    writeImages(rendering, report);
+    failOnValidation(*session.device);
+    fillInputs(report, scene, camera, renderer->settings());
+    const Rendering rendering = renderer->rendering();
+    fillResults(report, *renderer, *session.device, rendering);
+    report.ledger = makeLedger(scene, session.settings, report.tallies, report.stop);
+    writeImages(files, rendering, report);
     watch.lap("write");
     report.stages = watch.stages();
-    report.stages.emplace_back("prepareBvh", renderer.scene().bvhSeconds());
-    report.stages.emplace_back("prepareKernels", renderer.kernels().seconds());
+    report.stages.emplace_back("prepareBvh", renderer->scene().bvhSeconds());
+    report.stages.emplace_back("prepareKernels", renderer->kernels().seconds());
     if (run.toFirstSamples)
         report.stages.emplace_back("processToFirstSamples", *run.toFirstSamples);
-    if (!report_.empty())
-        writeFileAtomically(report_, reportJson(report));
+    if (!files.report.empty())
+        writeFileAtomically(files.report, reportJson(report));
     if (!quiet_)
         printSummary(report);
+    session.kernels = renderer->releaseKernels();
     return report.stop == StopReason::interrupted ? kInterrupted : 0;
 }
 

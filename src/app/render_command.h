@@ -4,6 +4,7 @@
 #include <string>
 
 #include "app/command.h"
+#include "app/frame_sequence.h"
 #include "app/render_options.h"
 #include "app/scene_options.h"
 #include "image/image.h"
@@ -18,15 +19,24 @@ class RenderCommand : public Command {
     [[nodiscard]] int run() override;
 
   private:
-    void requireOutputs() const;
-    void writeImages(const Rendering& rendering, const RenderReport& report) const;
+    // Files to write; empty: none.
+    struct Outputs {
+        std::string exr;
+        std::string png;
+        std::string report;
+    };
+    struct Session; // what the frames of a sequence share
+
+    void requireOutputs(const Outputs& files) const;
+    void writeImages(const Outputs& files, const Rendering& rendering, const RenderReport& report) const;
+    [[nodiscard]] int runSequence(Session& session) const;
+    [[nodiscard]] int renderMoment(const Outputs& files, const ImportOptions& moment, Session& session) const;
 
     RenderOptions options_;
     SceneOptions sceneOptions_;
+    FrameSequence sequence_;
     std::string scene_ = "cornell-box";
-    std::string exr_;
-    std::string png_;
-    std::string report_;
+    Outputs outputs_;
     float exposure_ = 0.0f;
     bool quiet_ = false;
 };

@@ -36,4 +36,12 @@ ImportOptions SceneOptions::importOptions() const {
     return options;
 }
 
+ImportOptions SceneOptions::importOptionsAt(double seconds) const {
+    if (parser_->count("--at") > 0)
+        throw UsageError("--at: is one time, and --frames are many; give one of the two");
+    ImportOptions options = options_;
+    options.seconds = seconds;
+    return options;
+}
+
 } // namespace lavalight

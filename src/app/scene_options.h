@@ -18,6 +18,8 @@ class SceneOptions {
 
     // Throws UsageError naming the option and what it takes.
     [[nodiscard]] ImportOptions importOptions() const;
+    // The same at a time that is not the user's. Throws UsageError if there is one of the user's too.
+    [[nodiscard]] ImportOptions importOptionsAt(double seconds) const;
 
   private:
     CLI::App* parser_; // asked which options were given

@@ -20,6 +20,7 @@ namespace lavalight::gpu {
 struct SpecialisationConstant {
     uint32_t id = 0;
     uint32_t value = 0;
+    bool operator==(const SpecialisationConstant&) const = default;
 };
 
 // A compiled pipeline. Immutable after construction.

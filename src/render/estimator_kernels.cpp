@@ -38,15 +38,19 @@ std::vector<std::string_view> kernelsOf(Kernels kernels) {
 
 EstimatorKernels::EstimatorKernels(gpu::Device& device, Kernels kernels, const EstimatorSettings& settings,
                                    uint32_t features, const FrameParameters& frame,
-                                   const KernelSource& source) {
+                                   const KernelSource& source)
+    : way_(kernels), constants_(estimatorConstants(settings, features)) {
     const auto start = std::chrono::steady_clock::now();
-    const std::vector<gpu::SpecialisationConstant> constants = estimatorConstants(settings, features);
     std::vector<const gpu::Kernel*> made;
     for (const std::string_view name : kernelsOf(kernels))
         made.push_back(
-            &kernels_.try_emplace(std::string(name), device, source(name), constants).first->second);
+            &kernels_.try_emplace(std::string(name), device, source(name), constants_).first->second);
     gpu::warmUp(device, made, std::as_bytes(std::span(&frame, 1)));
     seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+bool EstimatorKernels::serve(Kernels kernels, const EstimatorSettings& settings, uint32_t features) const {
+    return kernels == way_ && estimatorConstants(settings, features) == constants_;
 }
 
 const gpu::Kernel& EstimatorKernels::operator[](std::string_view name) const {

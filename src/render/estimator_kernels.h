@@ -6,6 +6,7 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "gpu/kernel.h"
@@ -33,10 +34,19 @@ class EstimatorKernels {
 
     // The kernel must be one of that way.
     [[nodiscard]] const gpu::Kernel& operator[](std::string_view name) const;
+    // Whether they are what the constructor would make of these.
+    [[nodiscard]] bool serve(Kernels kernels, const EstimatorSettings& settings, uint32_t features) const;
+    // For another render, which they cost no time.
+    [[nodiscard]] EstimatorKernels handOn() && {
+        seconds_ = 0.0;
+        return std::move(*this);
+    }
     // That all of it took.
     [[nodiscard]] double seconds() const { return seconds_; }
 
   private:
+    Kernels way_;
+    std::vector<gpu::SpecialisationConstant> constants_;
     std::map<std::string, gpu::Kernel, std::less<>> kernels_;
     double seconds_ = 0.0;
 };

@@ -107,8 +107,10 @@ struct Renderer::Setup {
     SceneData scene;
     LightSelection lightSelection;
 
-    static Setup make(gpu::Device& device, const Scene& scene, const Camera& camera,
-                      const RenderSettings& settings, const KernelSource& source) {
+    using MakeKernels = std::function<EstimatorKernels(uint32_t features, const FrameParameters& frame)>;
+
+    static Setup make(const Scene& scene, const Camera& camera, const RenderSettings& settings,
+                      const MakeKernels& makeKernels) {
         const EstimatorSettings& estimator = settings.estimator;
         const Lights lights = collectLights(scene, environmentFactor(scene, settings),
                                             estimator.lightSelection, estimator.mis != Mis::off);
@@ -116,17 +118,38 @@ struct Renderer::Setup {
             std::async(std::launch::async, [&] { return packScene(scene, lights); });
         FrameParameters frame = makeFrame(scene, camera, settings);
         setLights(frame, lights);
-        const uint32_t features = sceneFeatures(scene, lights) | cameraFeatures(camera);
-        EstimatorKernels kernels(device, settings.kernels, estimator, features, frame, source);
+        EstimatorKernels kernels = makeKernels(sceneFeatures(scene, lights) | cameraFeatures(camera), frame);
         return {frame, std::move(kernels), packed.get(), lights.selection};
     }
 };
 
 Renderer::Renderer(gpu::Device& device, const Scene& scene, const Camera& camera,
-                   const RenderSettings& settings, const KernelSource& kernels)
-    : Renderer(device, resolveKernels(settings, device.description().isCpu),
-               Setup::make(device, scene, camera, resolveKernels(settings, device.description().isCpu),
-                           kernels)) {}
+                   const RenderSettings& wanted, const KernelSource& source)
+    : Renderer(device, resolveKernels(wanted, device.description().isCpu),
+               [&](const RenderSettings& settings) {
+                   return Setup::make(
+                       scene, camera, settings, [&](uint32_t features, const FrameParameters& frame) {
+                           return EstimatorKernels(device, settings.kernels, settings.estimator, features,
+                                                   frame, source);
+                       });
+               }) {}
+
+Renderer::Renderer(gpu::Device& device, const Scene& scene, const Camera& camera,
+                   const RenderSettings& wanted, EstimatorKernels earlier)
+    : Renderer(device, resolveKernels(wanted, device.description().isCpu),
+               [&](const RenderSettings& settings) {
+                   return Setup::make(
+                       scene, camera, settings, [&](uint32_t features, const FrameParameters& frame) {
+                           if (earlier.serve(settings.kernels, settings.estimator, features))
+                               return std::move(earlier);
+                           return EstimatorKernels(device, settings.kernels, settings.estimator, features,
+                                                   frame, embeddedKernel);
+                       });
+               }) {}
+
+Renderer::Renderer(gpu::Device& device, const RenderSettings& settings,
+                   const std::function<Setup(const RenderSettings&)>& setUp)
+    : Renderer(device, settings, setUp(settings)) {}
 
 Renderer::Renderer(gpu::Device& device, const RenderSettings& settings, Setup setup)
     : settings_(settings), kernels_(std::move(setup.kernels)), scene_(device, setup.scene),

@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "gpu/commands.h"
 #include "gpu/device.h"
@@ -25,7 +26,10 @@ class Renderer {
     // (resolveSize). The device must outlive the renderer. Throws Error where the device's limits are
     // exceeded. The default kernels are those that the build embedded.
     Renderer(gpu::Device& device, const Scene& scene, const Camera& camera, const RenderSettings& settings,
-             const KernelSource& kernels = embeddedKernel);
+             const KernelSource& source = embeddedKernel);
+    // The same with the kernels of an earlier renderer of that device, if they serve; else with new ones.
+    Renderer(gpu::Device& device, const Scene& scene, const Camera& camera, const RenderSettings& settings,
+             EstimatorKernels earlier);
     Renderer(const Renderer&) = delete; // the wavefront refers to the scene and the film
     Renderer& operator=(const Renderer&) = delete;
 
@@ -41,6 +45,8 @@ class Renderer {
     [[nodiscard]] const GpuScene& scene() const { return scene_; }
     [[nodiscard]] const WaveRenderer& waves() const { return *waves_; }
     [[nodiscard]] const EstimatorKernels& kernels() const { return kernels_; }
+    // Hands on the kernels; no sample may be taken any more.
+    [[nodiscard]] EstimatorKernels releaseKernels() { return std::move(kernels_).handOn(); }
     // With everything resolved that was left to the device.
     [[nodiscard]] const RenderSettings& settings() const { return settings_; }
 
@@ -52,6 +58,8 @@ class Renderer {
     [[nodiscard]] bool isTimed() const { return settings_.seconds > 0.0; }
 
     struct Setup;
+    Renderer(gpu::Device& device, const RenderSettings& settings,
+             const std::function<Setup(const RenderSettings&)>& setUp);
     Renderer(gpu::Device& device, const RenderSettings& settings, Setup setup);
 
     RenderSettings settings_;

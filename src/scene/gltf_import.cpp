@@ -70,7 +70,8 @@ Scene buildScene(const GltfDocument& document, const ImportOptions& options) {
     scene.cameras = readCameras(document, nodes.shown, notes);
     if (scene.meshes.empty())
         notes.add("the scene has no triangles");
-    if (scene.cameras.empty())
+    scene.hasOwnCamera = !scene.cameras.empty();
+    if (!scene.hasOwnCamera)
         scene.cameras.push_back(framingCamera(scene.bounds));
     scene.punctualLights = readPunctualLights(document, nodes.shown, notes);
     if (!hasEmission(scene) && !hasPunctualLight(scene)) {

@@ -13,7 +13,6 @@
 #include "image/image.h"
 #include "image/picture.h"
 
-
 namespace lavalight {
 
 enum class Wrap : uint32_t { repeat, mirror, clamp };
@@ -181,6 +180,7 @@ struct Scene {
     std::vector<Material> materials; // never empty: meshes without one use a default material
     std::vector<Picture> pictures;
     std::vector<Camera> cameras; // never empty after import: one that frames the scene stands in
+    bool hasOwnCamera = true;    // false: it is the stand-in, which moves with what it frames
     std::vector<PunctualLight> punctualLights;
     std::vector<Animation> animations;
     glm::vec3 environment{0.0f};                  // constant radiance from every direction that hits nothing

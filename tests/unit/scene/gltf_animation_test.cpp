@@ -238,7 +238,7 @@ TEST(GltfSkin, VerticesFollowTheMeanOfTheirJointsAndNotTheirNode) {
 }
 
 TEST(GltfSkin, InverseBindMatricesComeFirst) {
-    GltfBuilder builder = skinned(Json::object(), {{"translation", {0, 0, 4}}});
+    GltfBuilder builder = skinned(Json::object(), {{"translation", {0, 0, 4}}, {"scale", {3, 3, 3}}});
     std::vector<glm::mat4> matrices(2, glm::mat4(1.0f));
     matrices[1][3] = {-1, 0, 0, 1}; // the second joint was bound at (1, 0, 0)
     builder.json["skins"][0]["inverseBindMatrices"] = addFloats(builder, matrices, "MAT4");
