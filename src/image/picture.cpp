@@ -58,7 +58,7 @@ Picture decodeByStb(std::string_view bytes) {
     int height = 0;
     int channels = 0;
     if (stbi_info_from_memory(data, length, &width, &height, &channels) == 0)
-        throw Error("it is no PNG, JPEG or WebP file");
+        throw Error(fmt::format("it is no PNG, JPEG or WebP file ({})", stbi_failure_reason()));
     requireFitting(width, height);
     Picture picture;
     picture.is16Bit = stbi_is_16_bit_from_memory(data, length) != 0;

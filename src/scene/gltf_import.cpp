@@ -25,6 +25,10 @@ namespace {
 void noteIgnored(const GltfDocument& document, GltfNotes& notes) {
     for (const std::string& extension : document.ignoredExtensions)
         notes.add(fmt::format("the extension {} is not supported and was ignored", printable(extension)));
+    for (size_t i = 0; i < document.textures.size(); ++i)
+        if (!document.textures[i].image)
+            notes.add(fmt::format(
+                "texture {} has no image that can be read, its materials show their plain factors", i));
 }
 
 Bounds boundsOf(const std::vector<Mesh>& meshes) {

@@ -62,10 +62,10 @@ void addTexture(std::vector<ObjectRule>& rules, const std::string& path) {
 }
 
 void addTextureRules(std::vector<ObjectRule>& rules) {
-    rules.push_back(
-        {"textures[]",
-         {index("sampler", "samplers"), index("source", "images"), optional("extensions", Kind::object)}});
-    rules.push_back({"textures[].extensions.EXT_texture_webp", {index("source", "images")}});
+    rules.push_back({"textures[]",
+                     {index("sampler", "samplers"), optional("source", Kind::count),
+                      optional("extensions", Kind::object)}});
+    rules.push_back({"textures[].extensions.EXT_texture_webp", {optional("source", Kind::count)}});
     rules.push_back({"samplers[]",
                      {optional("wrapS", Kind::small), optional("wrapT", Kind::small),
                       optional("magFilter", Kind::small), optional("minFilter", Kind::small)}});

@@ -20,13 +20,19 @@ Wrap wrapOf(int mode) {
     return mode == kClampToEdge ? Wrap::clamp : mode == kMirroredRepeat ? Wrap::mirror : Wrap::repeat;
 }
 
-std::optional<size_t> imageOf(const Json& texture) {
+// One that points past the images is as good as none.
+std::optional<size_t> existing(const Json& source, size_t imageCount) {
+    const auto image = source.get<size_t>();
+    return image < imageCount ? std::optional(image) : std::nullopt;
+}
+
+std::optional<size_t> imageOf(const Json& texture, size_t imageCount) {
     const Json none = Json::object();
     const Json& extensions = texture.contains("extensions") ? texture.at("extensions") : none;
     if (extensions.contains("EXT_texture_webp") && extensions.at("EXT_texture_webp").contains("source"))
-        return extensions.at("EXT_texture_webp").at("source").get<size_t>();
+        return existing(extensions.at("EXT_texture_webp").at("source"), imageCount);
     if (texture.contains("source"))
-        return texture.at("source").get<size_t>();
+        return existing(texture.at("source"), imageCount);
     return std::nullopt;
 }
 
@@ -54,9 +60,10 @@ std::vector<GltfTexture> readTextures(const Json& json) {
     std::vector<GltfTexture> textures;
     if (!json.contains("textures"))
         return textures;
+    const size_t imageCount = json.contains("images") ? json.at("images").size() : 0;
     for (const Json& source : json.at("textures")) {
         GltfTexture& texture = textures.emplace_back();
-        texture.image = imageOf(source);
+        texture.image = imageOf(source, imageCount);
         if (!source.contains("sampler"))
             continue;
         const Json& sampler = json.at("samplers").at(source.at("sampler").get<size_t>());
