@@ -1,6 +1,8 @@
 #version 460
-// Tabulates the directional albedo of the GGX lobe with the functions that shading uses; scene/albedo_table.glsl reads it.
+// Tabulates the directional albedos of the GGX lobe and of sheen with the functions that shading uses;
+// scene/albedo_table.glsl reads them.
 // One workgroup a row (roughness); the last column is the cosine-weighted average of the interpolated row.
+#include "lib/bsdf_sheen.glsl"
 #include "lib/bsdf_specular.glsl"
 #include "shared/bindings.h"
 #include "shared/scene.h"
@@ -26,13 +28,25 @@ vec2 albedoTerms(float cosTheta, float alpha) {
         return vec2(1.0 - schlickWeight(cosTheta), schlickWeight(cosTheta));
     vec2 sum = vec2(0.0);
     for (uint i = 0u; i < kPoints; ++i) {
-        const vec3 m = squareToVisibleNormal(latticePoint(i), wo, alpha);
+        const vec3 m = squareToVisibleNormal(latticePoint(i), wo, vec2(alpha));
         const vec3 wi = reflect(-wo, m);
         if (wi.z <= 0.0)
             continue;
-        const float weight = ggxG2(wo, wi, alpha) / ggxG1(wo, alpha);
+        const float weight = ggxG2(wo, wi, vec2(alpha)) / ggxG1(wo, vec2(alpha));
         const float s = schlickWeight(dot(wo, m));
         sum += weight * vec2(1.0 - s, s);
+    }
+    return sum / float(kPoints);
+}
+
+// Of white sheen, whose lobe is even in the azimuth too. The warp's axes are swapped against those of GGX.
+float sheenAlbedo(float cosTheta, float roughness) {
+    const float alpha = max(roughness * roughness, kLeastSheenRoughness * kLeastSheenRoughness);
+    const vec3 wo = vec3(sqrt(max(0.0, 1.0 - cosTheta * cosTheta)), 0.0, cosTheta);
+    float sum = 0.0;
+    for (uint i = 0u; i < kPoints; ++i) {
+        const vec3 wi = sampleSheen(latticePoint(i).yx);
+        sum += evalCharlie(alpha, wo, wi) / pdfSheen(wi);
     }
     return sum / float(kPoints);
 }
@@ -63,5 +77,5 @@ void main() {
     const float roughness = float(row) / float(kAlbedoRoughnesses - 1u);
     const float root = float(column) / float(kAlbedoCosines - 1u);
     const float cosTheta = max(root * root, 1e-4); // the limit at the horizon
-    albedo[row * kAlbedoRow + column] = vec4(albedoTerms(cosTheta, roughness * roughness), 0.0, 0.0);
+    albedo[row * kAlbedoRow + column] = vec4(albedoTerms(cosTheta, roughness * roughness), sheenAlbedo(cosTheta, roughness), 0.0);
 }

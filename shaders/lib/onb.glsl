@@ -21,3 +21,10 @@ vec3 toLocal(Basis basis, vec3 v) {
 vec3 toWorld(Basis basis, vec3 v) {
     return v.x * basis.tangent + v.y * basis.bitangent + v.z * basis.normal;
 }
+
+// Tangent and bitangent turned around the normal, counter-clockwise, radians.
+Basis turnedBasis(Basis basis, float angle) {
+    const float c = cos(angle);
+    const float s = sin(angle);
+    return Basis(c * basis.tangent + s * basis.bitangent, c * basis.bitangent - s * basis.tangent, basis.normal);
+}

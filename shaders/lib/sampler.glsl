@@ -10,6 +10,7 @@ const uint kDimensionLight = 1u;       // 2-D: which light, and a point or direc
 const uint kDimensionBsdf = 3u;        // 2-D: direction
 const uint kDimensionLobe = 4u;        // 1-D: which lobe
 const uint kDimensionRoulette = 5u;    // 1-D: survival
+const uint kDimensionChannel = 6u;     // 1-D: which colour a dispersing body refracts
 
 struct SampleKey {
     uint seed;

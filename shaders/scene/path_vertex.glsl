@@ -3,6 +3,7 @@
 #include "lib/mis.glsl"
 #include "lib/onb.glsl"
 #include "lib/roulette.glsl"
+#include "scene/dispersion.glsl"
 #include "scene/frame.glsl"
 #include "scene/interaction.glsl"
 #include "scene/light.glsl"
@@ -103,8 +104,10 @@ Vertex makeVertex(Interaction surface, MaterialRecord material, vec3 wo, SampleK
     v.surface = surface;
     v.bsdf = surfaceOf(material, surface.isFront);
     v.basis = makeBasis(surface.n);
+    if (sceneHas(kFeatureAnisotropy)) // seen from behind, the other way round
+        v.basis = turnedBasis(v.basis, surface.isFront ? material.anisotropyRotation : -material.anisotropyRotation);
     v.wo = toLocal(v.basis, wo);
-    v.receiver = sceneHas(kFeatureLightTree) ? packReceiver(surface.n, hasGlass(v.bsdf)) : 0u;
+    v.receiver = sceneHas(kFeatureLightTree) ? packReceiver(surface.n, isTransmissive(v.bsdf)) : 0u;
     v.key = key;
     v.survival = key.vertex < frame.rouletteStart
                      ? 1.0
@@ -133,7 +136,7 @@ NextRays scatter(Hit hit, Ray ray, uint slot, uint bounce, inout Path path) {
         return next;
     }
     const Interaction surface = makeInteraction(hit, -ray.direction);
-    const MaterialRecord material = fetchMaterial(surface.material);
+    MaterialRecord material = fetchMaterial(surface.material);
 
     // ---- Emission ----
     const vec3 emission = emissionOf(material, surface.isFront);
@@ -143,7 +146,10 @@ NextRays scatter(Hit hit, Ray ray, uint slot, uint bounce, inout Path path) {
     next.isCut = bounce >= frame.maxBounces;
     if (next.isCut)
         return next;
-    const Vertex vertex = makeVertex(surface, material, -ray.direction, keyOfSlot(slot, bounce + 1u));
+    const SampleKey key = keyOfSlot(slot, bounce + 1u);
+    if (sceneHas(kFeatureDispersion) && isDispersive(material))
+        chooseChannel(sample1D(key, kDimensionChannel), path, material);
+    const Vertex vertex = makeVertex(surface, material, -ray.direction, key);
 
     // ---- Next-event estimation ----
     if (kNee != 0u && frame.lightColumns > 0u && hasNonDelta(vertex.bsdf))

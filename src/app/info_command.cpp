@@ -108,6 +108,9 @@ void printText(const Scene& scene) {
         fmt::print("camera {:<13} {}\n", i, cameraText(scene.cameras[i]));
     for (size_t i = 0; i < scene.punctualLights.size(); ++i)
         fmt::print("light {:<14} {}\n", i, lightText(scene.punctualLights[i]));
+    for (size_t i = 0; i < scene.animations.size(); ++i)
+        fmt::print("animation {:<10} \"{}\": {:.6g} s\n", i, scene.animations[i].name,
+                   scene.animations[i].seconds);
     for (const std::string& warning : scene.warnings)
         fmt::print("warning              {}\n", warning);
 }
@@ -155,6 +158,9 @@ nlohmann::ordered_json sceneJson(const Scene& scene) {
     nlohmann::ordered_json lights = nlohmann::ordered_json::array();
     for (const PunctualLight& light : scene.punctualLights)
         lights.push_back(lightJson(light));
+    nlohmann::ordered_json animations = nlohmann::ordered_json::array();
+    for (const Animation& animation : scene.animations)
+        animations.push_back({{"name", animation.name}, {"seconds", animation.seconds}});
     return {
         {"scene", scene.source},
         {"triangles", scene.triangleCount()},
@@ -169,13 +175,14 @@ nlohmann::ordered_json sceneJson(const Scene& scene) {
         {"extensionsIgnored", scene.ignoredExtensions},
         {"cameras", cameras},
         {"punctualLights", lights},
+        {"animations", animations},
         {"warnings", scene.warnings}};
 }
 
 } // namespace
 
 InfoCommand::InfoCommand(CLI::App& app)
-    : Command(app, "info", "What was understood of a scene and what was not") {
+    : Command(app, "info", "What was understood of a scene and what was not"), options_(parser()) {
     parser()
         .add_option("scene", scene_,
                     fmt::format("A .gltf or .glb file, or built in: {}", listText(builtinNames())))
@@ -185,7 +192,7 @@ InfoCommand::InfoCommand(CLI::App& app)
 }
 
 int InfoCommand::run() {
-    const Scene scene = loadScene(scene_);
+    const Scene scene = loadScene(scene_, options_.importOptions());
     if (json_) // names in files need not be valid UTF-8
         fmt::print("{}\n", sceneJson(scene).dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
     else

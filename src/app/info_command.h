@@ -4,6 +4,7 @@
 #include <string>
 
 #include "app/command.h"
+#include "app/scene_options.h"
 
 namespace lavalight {
 
@@ -14,6 +15,7 @@ class InfoCommand : public Command {
     [[nodiscard]] int run() override;
 
   private:
+    SceneOptions options_;
     std::string scene_;
     bool json_ = false;
 };

@@ -66,8 +66,8 @@ void failOnValidation(const gpu::Device& device) {
                                 messages.front()));
 }
 
-Scene loadWithWarnings(const std::string& name) {
-    Scene scene = loadScene(name);
+Scene loadWithWarnings(const std::string& name, const ImportOptions& options) {
+    Scene scene = loadScene(name, options);
     for (const std::string& warning : scene.warnings)
         spdlog::warn("{}", warning);
     return scene;
@@ -128,7 +128,7 @@ void printSummary(const RenderReport& report) {
 } // namespace
 
 RenderCommand::RenderCommand(CLI::App& app)
-    : Command(app, "render", "Render a scene to an image"), options_(parser()) {
+    : Command(app, "render", "Render a scene to an image"), options_(parser()), sceneOptions_(parser()) {
     parser()
         .add_option("scene", scene_,
                     "Built-in scene (" + fmt::format("{}", fmt::join(builtinNames(), ", ")) +
@@ -175,7 +175,8 @@ int RenderCommand::run() {
 
     RenderReport report;
     Stopwatch watch;
-    const Scene scene = loadWithWarnings(scene_);
+    report.import = sceneOptions_.importOptions();
+    const Scene scene = loadWithWarnings(scene_, report.import);
     const Camera& camera = options_.pickCamera(scene);
     settings = resolveSize(settings, camera);
     checkSettings(settings);

@@ -5,6 +5,7 @@
 
 #include "app/command.h"
 #include "app/render_options.h"
+#include "app/scene_options.h"
 #include "image/image.h"
 #include "render/report.h"
 
@@ -21,6 +22,7 @@ class RenderCommand : public Command {
     void writeImages(const Rendering& rendering, const RenderReport& report) const;
 
     RenderOptions options_;
+    SceneOptions sceneOptions_;
     std::string scene_ = "cornell-box";
     std::string exr_;
     std::string png_;

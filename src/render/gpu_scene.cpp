@@ -7,7 +7,7 @@ namespace {
 
 // Lambert surfaces never look into the table, whose kernel takes a quarter of a second to compile and run.
 gpu::Buffer albedoTableFor(gpu::Device& device, uint32_t features) {
-    if ((features & (kFeatureSpecular | kFeatureGlass)) != 0)
+    if ((features & (kFeatureSpecular | kFeatureGlass | kFeatureClearcoat | kFeatureSheen)) != 0)
         return makeAlbedoTable(device);
     return {device, "albedo table", 0, gpu::BufferUse::texels};
 }

@@ -14,7 +14,19 @@ double perSecond(uint64_t count, double seconds) {
     return seconds > 0.0 ? static_cast<double>(count) / seconds : 0.0;
 }
 
-Json pairsJson(const std::vector<std::pair<std::string, std::string>>& pairs) {
+using Pairs = std::vector<std::pair<std::string, std::string>>;
+
+// Options that were given and the settings, under the names of their options.
+Pairs describeOptions(const RenderReport& report) {
+    Pairs pairs = describe(report.settings);
+    if (report.import.seconds)
+        pairs.emplace_back("at", fmt::format("{}", *report.import.seconds));
+    if (!report.import.animation.empty())
+        pairs.emplace_back("animation", report.import.animation);
+    return pairs;
+}
+
+Json pairsJson(const Pairs& pairs) {
     Json json = Json::object();
     for (const auto& [key, value] : pairs)
         json[key] = value;
@@ -87,7 +99,7 @@ Metadata exrMetadata(const RenderReport& report) {
         {"render-seconds", fmt::format("{:.3f}", report.renderSeconds)},
         {"complete", report.stop == StopReason::interrupted ? "no, interrupted" : "yes"},
         {"bias-ledger", ledgerText(report.ledger)}};
-    for (const auto& [key, value] : describe(report.settings))
+    for (const auto& [key, value] : describeOptions(report))
         metadata.emplace_back("option:" + key, value);
     return metadata;
 }
@@ -102,7 +114,7 @@ std::string reportJson(const RenderReport& report) {
                       {"driver", report.device.driver},
                       {"type", report.device.type},
                       {"api", report.device.apiVersion}};
-    json["settings"] = pairsJson(describe(report.settings));
+    json["settings"] = pairsJson(describeOptions(report));
     json["waveSize"] = report.settings.waveSize;
     json["complete"] = report.stop != StopReason::interrupted;
     json["stoppedBy"] = nameOf(report.stop);

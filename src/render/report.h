@@ -10,6 +10,7 @@
 #include "render/ledger.h"
 #include "render/renderer.h"
 #include "render/settings.h"
+#include "scene/import_options.h"
 
 namespace lavalight {
 
@@ -19,6 +20,7 @@ using StageTimes = std::vector<std::pair<std::string, double>>;
 
 struct RenderReport {
     std::string scene;
+    ImportOptions import; // what of the scene was shown
     std::string camera;
     RenderSettings settings;
     gpu::DeviceDescription device;

@@ -5,14 +5,30 @@
 namespace lavalight {
 namespace {
 
+uint32_t lobeOf(float roughness) {
+    return roughness * roughness < kSmoothAlpha ? kFeatureSmoothLobes : kFeatureRoughLobes;
+}
+
+// Of the layers and lobes that extensions add.
+uint32_t extendedFeaturesOf(const Material& material) {
+    const bool isGlass = material.metallic < 1.0f && material.transmission > 0.0f;
+    uint32_t features =
+        material.clearcoat > 0.0f ? kFeatureClearcoat | lobeOf(material.clearcoatRoughness) : 0u;
+    features |= material.sheenColor != glm::vec3(0.0f) ? kFeatureSheen : 0u;
+    features |= material.anisotropy > 0.0f ? kFeatureAnisotropy | kFeatureRoughLobes : 0u;
+    features |= material.iridescence > 0.0f ? kFeatureIridescence : 0u;
+    features |= material.diffuseTransmission > 0.0f ? kFeatureDiffuseTransmission : 0u;
+    features |= isGlass && material.isSolid && material.dispersion > 0.0f ? kFeatureDispersion : 0u;
+    return features;
+}
+
 uint32_t featuresOf(const Material& material) {
     const bool isSpecular = material.metallic > 0.0f || material.specular > 0.0f;
     const bool isGlass = material.metallic < 1.0f && material.transmission > 0.0f;
     uint32_t features = (isSpecular ? kFeatureSpecular : 0u) | (isGlass ? kFeatureGlass : 0u);
     if (features != 0)
-        features |=
-            material.roughness * material.roughness < kSmoothAlpha ? kFeatureSmoothLobes : kFeatureRoughLobes;
-    return features;
+        features |= lobeOf(material.roughness);
+    return features | extendedFeaturesOf(material);
 }
 
 } // namespace

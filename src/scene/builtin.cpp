@@ -71,13 +71,17 @@ Scene loadScene(const std::string& nameOrPath, const ImportOptions& options) {
     const bool isFlat = nameOrPath.ends_with(kFlatSuffix);
     const std::string_view smoothName(nameOrPath.data(),
                                       nameOrPath.size() - (isFlat ? kFlatSuffix.size() : 0));
-    if (const auto triangles = countAfter("dense-", smoothName)) {
+    const auto triangles = countAfter("dense-", smoothName);
+    const auto lamps = countAfter("lamps-", nameOrPath);
+    if ((triangles || lamps) && options.seconds)
+        throw UsageError(fmt::format("{} has no animation that a time could be asked of", nameOrPath));
+    if (triangles) {
         if (*triangles > kMostTriangles)
             throw Error(fmt::format("cannot build {}: at most {} triangles are supported", nameOrPath,
                                     kMostTriangles));
         return isFlat ? flattened(makeDenseScene(*triangles)) : makeDenseScene(*triangles);
     }
-    if (const auto lamps = countAfter("lamps-", nameOrPath))
+    if (lamps)
         return makeLampsScene(*lamps);
     std::error_code code;
     if (!std::filesystem::exists(nameOrPath, code))

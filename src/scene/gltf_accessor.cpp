@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include <fmt/format.h>
+#include <glm/ext/vector_float1.hpp>
 
 namespace lavalight {
 namespace {
@@ -74,13 +75,9 @@ void requireInsideBuffer(const GltfDocument& document, int index) {
 }
 
 std::string_view bytesOfView(const GltfDocument& document, int index) {
-    requireInsideBuffer(document, index);
-    const tinygltf::BufferView& view = document.model.bufferViews[static_cast<size_t>(index)];
-    const GltfBuffer& buffer = bufferOf(document, index);
-    if (buffer.bytes.empty())
-        throw document.error(
-            fmt::format("buffer {} is needed but has neither a uri nor a BIN chunk", view.buffer));
-    return std::string_view(buffer.bytes).substr(view.byteOffset, view.byteLength);
+    const tinygltf::BufferView& view = document.model.bufferViews.at(static_cast<size_t>(index));
+    return bytesOf(document.buffers, {static_cast<size_t>(view.buffer), view.byteOffset, view.byteLength},
+                   describe("buffer view", static_cast<size_t>(index), view.name), document.source);
 }
 
 // The bytes of `range`, from its first element to the end of the view. Multiplies nothing that could
@@ -215,6 +212,14 @@ bool AccessorView::isUnsignedScalar() const {
     return type_ == TINYGLTF_TYPE_SCALAR && isUnsigned(componentType_);
 }
 
+bool AccessorView::isUnsignedVec4() const {
+    return isVec4() && isUnsigned(componentType_) && !normalized_;
+}
+
+bool AccessorView::isFloatMat4() const {
+    return type_ == TINYGLTF_TYPE_MAT4 && componentType_ == TINYGLTF_COMPONENT_TYPE_FLOAT;
+}
+
 template <class Vector>
 Vector AccessorView::vectorAt(size_t i) const {
     constexpr auto kSize = static_cast<size_t>(Vector::length());
@@ -230,6 +235,10 @@ Vector AccessorView::vectorAt(size_t i) const {
     return value;
 }
 
+float AccessorView::scalarAt(size_t i) const {
+    return vectorAt<glm::vec1>(i).x;
+}
+
 glm::vec2 AccessorView::vec2At(size_t i) const {
     return vectorAt<glm::vec2>(i);
 }
@@ -240,6 +249,11 @@ glm::vec3 AccessorView::vec3At(size_t i) const {
 
 glm::vec4 AccessorView::vec4At(size_t i) const {
     return vectorAt<glm::vec4>(i);
+}
+
+glm::mat4 AccessorView::mat4At(size_t i) const {
+    assert(isFloatMat4() && i < count_);
+    return load<glm::mat4>(bytes_.substr(i * stride_, elementSize_));
 }
 
 uint32_t AccessorView::unsignedAt(size_t i) const {

@@ -22,16 +22,22 @@ class AccessorView {
 
     [[nodiscard]] size_t count() const { return count_; }
     [[nodiscard]] const std::string& name() const { return name_; } // for messages
+    [[nodiscard]] bool isScalar() const { return type_ == TINYGLTF_TYPE_SCALAR; }
     [[nodiscard]] bool isVec2() const { return type_ == TINYGLTF_TYPE_VEC2; }
     [[nodiscard]] bool isVec3() const { return type_ == TINYGLTF_TYPE_VEC3; }
     [[nodiscard]] bool isVec4() const { return type_ == TINYGLTF_TYPE_VEC4; }
     [[nodiscard]] bool isUnsignedScalar() const;
+    [[nodiscard]] bool isUnsignedVec4() const; // and not normalized
+    [[nodiscard]] bool isFloatMat4() const;
 
-    // Element i < count() of a VEC2, VEC3 or VEC4; normalized integers are mapped to [0, 1] or [-1, 1]. May
-    // be infinite or NaN.
+    // Element i < count() of a SCALAR, VEC2, VEC3 or VEC4; normalized integers are mapped to [0, 1] or [-1,
+    // 1]. May be infinite or NaN.
+    [[nodiscard]] float scalarAt(size_t i) const;
     [[nodiscard]] glm::vec2 vec2At(size_t i) const;
     [[nodiscard]] glm::vec3 vec3At(size_t i) const;
     [[nodiscard]] glm::vec4 vec4At(size_t i) const;
+
+    [[nodiscard]] glm::mat4 mat4At(size_t i) const; // of floats
 
     // Element i < count() of a scalar of an unsigned integer type.
     [[nodiscard]] uint32_t unsignedAt(size_t i) const;

@@ -123,4 +123,16 @@ std::vector<GltfBuffer> loadBuffers(const nlohmann::json& json, std::string_view
     return buffers;
 }
 
+std::string_view bytesOf(const std::vector<GltfBuffer>& buffers, const BufferRange& range,
+                         std::string_view object, const std::string& source) {
+    const GltfBuffer& buffer = buffers.at(range.buffer);
+    if (range.offset > buffer.byteLength || range.length > buffer.byteLength - range.offset)
+        throw gltfError(source, fmt::format("{} covers {} bytes from {}, but buffer {} has {}", object,
+                                            range.length, range.offset, range.buffer, buffer.byteLength));
+    if (buffer.bytes.empty())
+        throw gltfError(
+            source, fmt::format("buffer {} is needed but has neither a uri nor a BIN chunk", range.buffer));
+    return std::string_view(buffer.bytes).substr(range.offset, range.length);
+}
+
 } // namespace lavalight

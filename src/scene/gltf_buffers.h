@@ -30,4 +30,15 @@ struct GltfBuffer {
 [[nodiscard]] std::vector<GltfBuffer> loadBuffers(const nlohmann::json& json, std::string_view binary,
                                                   const GltfSource& source);
 
+struct BufferRange {
+    size_t buffer = 0; // below the number of buffers
+    size_t offset = 0; // bytes
+    size_t length = 0; // bytes
+};
+
+// The bytes of a range; `object` is what asks for them. Throws Error where the buffer has no data or is too
+// short.
+[[nodiscard]] std::string_view bytesOf(const std::vector<GltfBuffer>& buffers, const BufferRange& range,
+                                       std::string_view object, const std::string& source);
+
 } // namespace lavalight

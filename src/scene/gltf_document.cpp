@@ -12,6 +12,8 @@
 #include <nlohmann/json.hpp>
 
 #include "scene/gltf_container.h"
+#include "scene/gltf_draco.h"
+#include "scene/gltf_meshopt.h"
 #include "scene/gltf_schema.h"
 
 namespace lavalight {
@@ -19,9 +21,12 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::array<std::string_view, 6> kSupportedExtensions = {
-    "KHR_lights_punctual",    "KHR_materials_emissive_strength", "KHR_materials_ior",
-    "KHR_materials_specular", "KHR_materials_transmission",      "KHR_materials_volume"};
+constexpr std::array<std::string_view, 12> kSupportedExtensions = {
+    "EXT_mesh_gpu_instancing", "EXT_meshopt_compression",         "KHR_draco_mesh_compression",
+    "KHR_lights_punctual",     "KHR_materials_emissive_strength", "KHR_materials_ior",
+    "KHR_materials_specular",  "KHR_materials_transmission",      "KHR_materials_volume",
+    "KHR_mesh_quantization",   "KHR_meshopt_compression",         "KHR_node_visibility",
+};
 
 bool isSupported(std::string_view extension) {
     return std::find(kSupportedExtensions.begin(), kSupportedExtensions.end(), extension) !=
@@ -125,8 +130,8 @@ Json rootExtensions(const Json& json, const std::string& source) {
 // files or decode images stays out of its sight, because it follows offsets and addresses unchecked.
 tinygltf::Model parseModel(Json& json, const std::string& source) {
     Json part;
-    for (const char* section : {"asset", "accessors", "bufferViews", "cameras", "materials", "meshes",
-                                "nodes", "scene", "scenes"}) {
+    for (const char* section : {"asset", "accessors", "animations", "bufferViews", "cameras", "materials",
+                                "meshes", "nodes", "scene", "scenes", "skins"}) {
         if (json.contains(section))
             part[section] = std::move(json[section]);
     }
@@ -179,8 +184,9 @@ GltfDocument parseGltf(std::string_view bytes, const GltfSource& source) {
     checkVersion(json, source.name);
     sortExtensions(json, document);
     document.textureCount = sizeOf(json, "textures");
-    document.animationCount = sizeOf(json, "animations");
     document.buffers = loadBuffers(json, container.binary, source);
+    decodeMeshopt(json, document.buffers, source.name);
+    decodeDraco(json, document.buffers, source.name);
     std::vector<size_t> primitiveCounts;
     if (json.contains("meshes")) {
         for (const Json& mesh : json.at("meshes"))

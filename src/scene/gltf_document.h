@@ -15,13 +15,12 @@ namespace lavalight {
 struct GltfDocument {
     std::string source; // for messages
     // Every index in it has been checked against the array that it points into. Buffers are in `buffers`;
-    // images, textures, animations and skins are counted below and left out.
+    // images and textures are left out.
     tinygltf::Model model;
     std::vector<GltfBuffer> buffers;
     std::vector<std::string> extensionsUsed;    // as the file lists them
     std::vector<std::string> ignoredExtensions; // listed or present on an object, and not supported
     size_t textureCount = 0;
-    size_t animationCount = 0;
 
     [[nodiscard]] Error error(std::string_view text) const { return gltfError(source, text); }
 };

@@ -20,23 +20,11 @@
 namespace lavalight {
 namespace {
 
-void noteIgnored(const GltfDocument& document, const std::vector<PlacedNode>& nodes, GltfNotes& notes) {
+void noteIgnored(const GltfDocument& document, GltfNotes& notes) {
     for (const std::string& extension : document.ignoredExtensions)
         notes.add(fmt::format("the extension {} is not supported and was ignored", printable(extension)));
     if (document.textureCount > 0)
         notes.add(fmt::format("textures are not read yet: {} textures ignored", document.textureCount));
-    if (document.animationCount > 0)
-        notes.add(
-            fmt::format("animations are not evaluated yet: {} ignored, nodes stay where they are placed",
-                        document.animationCount));
-    for (const PlacedNode& placed : nodes) {
-        const auto index = static_cast<size_t>(placed.node);
-        const tinygltf::Node& node = document.model.nodes[index];
-        if (node.skin >= 0)
-            notes.addObject(
-                "skins are not evaluated yet, their meshes are shown in the pose they are stored in",
-                describe("node", index, node.name));
-    }
 }
 
 Bounds boundsOf(const std::vector<Mesh>& meshes) {
@@ -63,7 +51,7 @@ bool hasPunctualLight(const Scene& scene) {
                        [](const PunctualLight& light) { return light.intensity != glm::vec3(0.0f); });
 }
 
-Scene buildScene(const GltfDocument& document, [[maybe_unused]] const ImportOptions& options) {
+Scene buildScene(const GltfDocument& document, const ImportOptions& options) {
     checkAccessors(document);
     GltfNotes notes;
     Scene scene;
@@ -71,17 +59,18 @@ Scene buildScene(const GltfDocument& document, [[maybe_unused]] const ImportOpti
     scene.extensionsUsed = document.extensionsUsed;
     scene.ignoredExtensions = document.ignoredExtensions;
 
-    const std::vector<PlacedNode> nodes = placeNodes(document);
-    noteIgnored(document, nodes, notes);
+    scene.animations = listAnimations(document);
+    const NodeTree nodes = placeNodes(document, poseAt(document, options));
+    noteIgnored(document, notes);
     scene.materials = readMaterials(document, notes);
     scene.meshes = readMeshes(document, nodes, scene.materials, notes);
     scene.bounds = boundsOf(scene.meshes);
-    scene.cameras = readCameras(document, nodes, notes);
+    scene.cameras = readCameras(document, nodes.shown, notes);
     if (scene.meshes.empty())
         notes.add("the scene has no triangles");
     if (scene.cameras.empty())
         scene.cameras.push_back(framingCamera(scene.bounds));
-    scene.punctualLights = readPunctualLights(document, nodes, notes);
+    scene.punctualLights = readPunctualLights(document, nodes.shown, notes);
     if (!hasEmission(scene) && !hasPunctualLight(scene)) {
         scene.environment = glm::vec3(1.0f);
         notes.add("the scene has no light: a constant white environment stands in");

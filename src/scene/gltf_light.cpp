@@ -84,7 +84,7 @@ std::vector<PunctualLight> readPunctualLights(const GltfDocument& document,
     for (const PlacedNode& placed : nodes) {
         const tinygltf::Node& node = document.model.nodes[static_cast<size_t>(placed.node)];
         const int number = lightOf(node);
-        if (number < 0)
+        if (number < 0 || !placed.isVisible)
             continue;
         const tinygltf::Light& source = document.model.lights[static_cast<size_t>(number)];
         const std::string& ownName = source.name.empty() ? node.name : source.name;

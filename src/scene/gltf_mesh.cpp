@@ -5,6 +5,9 @@
 
 #include <fmt/format.h>
 
+#include "scene/gltf_instancing.h"
+#include "scene/gltf_morph.h"
+#include "scene/gltf_skin.h"
 #include "scene/gltf_topology.h"
 #include "scene/gltf_vertices.h"
 #include "scene/mesh_bake.h"
@@ -20,7 +23,7 @@ MeshInstances groupByMesh(const GltfDocument& document, const std::vector<Placed
     MeshInstances instances(document.model.meshes.size());
     for (const PlacedNode& placed : nodes) {
         const int mesh = document.model.nodes[static_cast<size_t>(placed.node)].mesh;
-        if (mesh >= 0)
+        if (mesh >= 0 && placed.isVisible)
             instances[static_cast<size_t>(mesh)].push_back(&placed);
     }
     return instances;
@@ -33,7 +36,10 @@ void requireFitting(const GltfDocument& document, const MeshInstances& instances
         double ofMesh = 0.0;
         for (const tinygltf::Primitive& primitive : document.model.meshes[i].primitives)
             ofMesh += static_cast<double>(triangleCount(primitive, document));
-        total += ofMesh * static_cast<double>(instances[i].size());
+        for (const PlacedNode* placed : instances[i]) {
+            const tinygltf::Node& node = document.model.nodes[static_cast<size_t>(placed->node)];
+            total += ofMesh * static_cast<double>(instanceCount(document, node));
+        }
     }
     if (total > static_cast<double>(kMostTriangles))
         throw document.error(
@@ -43,32 +49,37 @@ void requireFitting(const GltfDocument& document, const MeshInstances& instances
 
 void noteUnread(const GltfDocument& document, const tinygltf::Primitive& primitive, const std::string& name,
                 GltfNotes& notes) {
-    if (!primitive.targets.empty())
-        notes.addObject("morph targets are not evaluated yet, their meshes are shown unmorphed", name);
     const int indices = primitive.indices;
     if (primitive.mode == TINYGLTF_MODE_TRIANGLES && indices >= 0 &&
         document.model.accessors[static_cast<size_t>(indices)].count % 3 != 0)
         notes.addObject("the last triangle is incomplete and was left out", name);
 }
 
-// A primitive in its own space, with the vertices that its triangles use. Empty if it shows no triangles.
-Mesh readPrimitive(const GltfDocument& document, const tinygltf::Primitive& primitive,
-                   const std::string& name, GltfNotes& notes) {
-    Mesh mesh;
+// A primitive in its own space, with the numbers of its vertices in the file.
+struct LocalMesh {
+    const tinygltf::Primitive& source;
+    Mesh mesh; // empty if it shows no triangles
+    std::vector<uint32_t> vertices;
+};
+
+LocalMesh readPrimitive(const GltfDocument& document, const tinygltf::Primitive& primitive,
+                        const std::string& name, GltfNotes& notes) {
+    LocalMesh local{primitive, {}, {}};
     if (!hasTriangles(primitive)) {
         notes.addObject("points and lines are not rendered", name);
-        return mesh;
+        return local;
     }
     if (!primitive.attributes.contains("POSITION")) {
         notes.addObject("a primitive without positions shows nothing", name);
-        return mesh;
+        return local;
     }
     const size_t vertexCount = countVertices(document, primitive, name);
     noteUnread(document, primitive, name, notes);
     std::vector<glm::uvec3> triangles = readTriangles(document, primitive, vertexCount);
-    mesh = readVertices(document, primitive, compactIndices(triangles), name, notes);
-    mesh.triangles = std::move(triangles);
-    return mesh;
+    local.vertices = compactIndices(triangles);
+    local.mesh = readVertices(document, primitive, local.vertices, name, notes);
+    local.mesh.triangles = std::move(triangles);
+    return local;
 }
 
 void noteCounts(const BakeCounts& counts, GltfNotes& notes) {
@@ -85,43 +96,91 @@ void noteCounts(const BakeCounts& counts, GltfNotes& notes) {
                               counts.repairedTangents));
 }
 
-// One mesh of the scene: in world space, with tangents where its material wants them.
-Mesh placeMesh(const Mesh& local, const glm::dmat4& toWorld, const Material& material, BakeCounts& counts) {
-    Mesh mesh = bakeMesh(local, toWorld, counts);
-    const std::optional<uint32_t> uvSet = tangentUvSet(material);
-    if (mesh.tangents.empty() && uvSet)
-        generateTangents(mesh, *uvSet);
-    return mesh;
-}
+// Reads primitives and places them in the scene.
+class MeshReader {
+  public:
+    MeshReader(const GltfDocument& document, const NodeTree& tree, const std::vector<Material>& materials,
+               GltfNotes& notes)
+        : document_(document), tree_(tree), materials_(materials), notes_(notes) {}
 
-} // namespace
-
-std::vector<Mesh> readMeshes(const GltfDocument& document, const std::vector<PlacedNode>& nodes,
-                             const std::vector<Material>& materials, GltfNotes& notes) {
-    const MeshInstances instances = groupByMesh(document, nodes);
-    requireFitting(document, instances);
-    std::vector<Mesh> meshes;
-    BakeCounts counts;
-    for (size_t i = 0; i < instances.size(); ++i) {
-        if (instances[i].empty())
-            continue;
-        const tinygltf::Mesh& source = document.model.meshes[i];
-        const std::string name = describe("mesh", i, source.name);
+    // Everything that nodes show of glTF's mesh `index`.
+    void read(size_t index, const std::vector<const PlacedNode*>& nodes) {
+        const tinygltf::Mesh& source = document_.model.meshes[index];
+        const std::string name = describe("mesh", index, source.name);
         for (const tinygltf::Primitive& primitive : source.primitives) {
-            Mesh local = readPrimitive(document, primitive, name, notes);
-            local.material = primitive.material < 0 ? static_cast<uint32_t>(materials.size() - 1)
-                                                    : static_cast<uint32_t>(primitive.material);
-            for (const PlacedNode* placed : instances[i]) {
-                const auto& node = document.model.nodes[static_cast<size_t>(placed->node)];
-                local.name = printable(source.name.empty() ? node.name : source.name);
-                Mesh baked = placeMesh(local, placed->toWorld, materials[local.material], counts);
-                if (!baked.triangles.empty())
-                    meshes.push_back(std::move(baked));
+            LocalMesh local = readPrimitive(document_, primitive, name, notes_);
+            local.mesh.material = primitive.material < 0 ? static_cast<uint32_t>(materials_.size() - 1)
+                                                         : static_cast<uint32_t>(primitive.material);
+            if (local.mesh.triangles.empty())
+                continue;
+            for (const PlacedNode* placed : nodes) {
+                const tinygltf::Node& node = document_.model.nodes[static_cast<size_t>(placed->node)];
+                local.mesh.name = printable(source.name.empty() ? node.name : source.name);
+                show(local, *placed, node);
             }
         }
     }
-    noteCounts(counts, notes);
-    return meshes;
+
+    [[nodiscard]] std::vector<Mesh> finish() {
+        noteCounts(counts_, notes_);
+        return std::move(meshes_);
+    }
+
+  private:
+    // What one node shows of a primitive: morphed, then skinned or placed.
+    void show(const LocalMesh& local, const PlacedNode& placed, const tinygltf::Node& node) {
+        const bool isSkinned = node.skin >= 0 && hasJoints(local.source);
+        if (node.skin >= 0 && !isSkinned)
+            notes_.addObject("a skin moves no mesh without JOINTS_0 and WEIGHTS_0",
+                             describe("node", static_cast<size_t>(placed.node), node.name));
+        if (local.source.targets.empty() && !isSkinned)
+            return placeInstances(local.mesh, placed, node);
+        Mesh mesh = local.mesh;
+        applyMorphTargets(document_, local.source, local.vertices,
+                          morphWeights(document_, placed.node, tree_.pose), mesh);
+        if (!isSkinned)
+            return placeInstances(mesh, placed, node);
+        const auto joints = jointTransforms(document_, node.skin, tree_.toWorld);
+        applySkin(document_, local.source, local.vertices, joints, mesh);
+        cleanMesh(mesh, counts_);
+        keep(std::move(mesh));
+    }
+
+    void placeInstances(const Mesh& local, const PlacedNode& placed, const tinygltf::Node& node) {
+        const InstanceReader instances(document_, node);
+        for (size_t i = 0; i < instances.count(); ++i)
+            keep(bakeMesh(local, placed.toWorld * instances.transform(i), counts_));
+    }
+
+    // Takes a mesh in world space, with tangents where its material wants them.
+    void keep(Mesh mesh) {
+        const std::optional<uint32_t> uvSet = tangentUvSet(materials_[mesh.material]);
+        if (mesh.tangents.empty() && uvSet)
+            generateTangents(mesh, *uvSet);
+        if (!mesh.triangles.empty())
+            meshes_.push_back(std::move(mesh));
+    }
+
+    const GltfDocument& document_;
+    const NodeTree& tree_;
+    const std::vector<Material>& materials_;
+    GltfNotes& notes_;
+    BakeCounts counts_;
+    std::vector<Mesh> meshes_;
+};
+
+} // namespace
+
+std::vector<Mesh> readMeshes(const GltfDocument& document, const NodeTree& tree,
+                             const std::vector<Material>& materials, GltfNotes& notes) {
+    const MeshInstances instances = groupByMesh(document, tree.shown);
+    requireFitting(document, instances);
+    MeshReader reader(document, tree, materials, notes);
+    for (size_t i = 0; i < instances.size(); ++i) {
+        if (!instances[i].empty())
+            reader.read(i, instances[i]);
+    }
+    return reader.finish();
 }
 
 } // namespace lavalight

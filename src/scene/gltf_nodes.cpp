@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include <fmt/format.h>
-#include <glm/gtc/matrix_transform.hpp>
-#include <glm/gtc/quaternion.hpp>
+
+#include "scene/gltf_transform.h"
 
 namespace lavalight {
 namespace {
@@ -68,38 +68,71 @@ std::vector<int> findRoots(const GltfDocument& document, const std::vector<int>&
     return roots;
 }
 
-glm::dmat4 localTransform(const tinygltf::Node& node) {
-    if (node.matrix.size() == 16) {
+glm::dmat4 localTransform(const tinygltf::Node& node, const NodePose& pose) {
+    if (node.matrix.size() == 16 && !pose.translation && !pose.rotation && !pose.scale) {
         glm::dmat4 matrix;
         for (int i = 0; i < 16; ++i)
             matrix[i / 4][i % 4] = node.matrix[static_cast<size_t>(i)];
         return matrix;
     }
-    glm::dmat4 matrix(1.0);
+    Transform transform;
     if (node.translation.size() == 3)
-        matrix = glm::translate(matrix, {node.translation[0], node.translation[1], node.translation[2]});
-    if (node.rotation.size() == 4) {
-        const glm::dquat rotation(node.rotation[3], node.rotation[0], node.rotation[1], node.rotation[2]);
-        // Exporters round; a quaternion that is not of unit length would scale. All zeros mean no rotation.
-        if (glm::length(rotation) > 0.0)
-            matrix *= glm::mat4_cast(glm::normalize(rotation));
-    }
+        transform.translation = {node.translation[0], node.translation[1], node.translation[2]};
+    if (node.rotation.size() == 4)
+        transform.rotation = {node.rotation[0], node.rotation[1], node.rotation[2], node.rotation[3]};
     if (node.scale.size() == 3)
-        matrix = glm::scale(matrix, {node.scale[0], node.scale[1], node.scale[2]});
-    return matrix;
+        transform.scale = {node.scale[0], node.scale[1], node.scale[2]};
+    transform.translation = pose.translation.value_or(transform.translation);
+    transform.rotation = pose.rotation.value_or(transform.rotation);
+    transform.scale = pose.scale.value_or(transform.scale);
+    return transform.matrix();
+}
+
+// The transforms of all nodes, from each root down.
+std::vector<glm::dmat4> worldTransforms(const GltfDocument& document, const std::vector<int>& parents,
+                                        const Pose& pose) {
+    const auto& nodes = document.model.nodes;
+    std::vector<glm::dmat4> toWorld(nodes.size(), glm::dmat4(1.0));
+    std::vector<size_t> pending;
+    for (size_t i = 0; i < nodes.size(); ++i) {
+        if (parents[i] < 0)
+            pending.push_back(i);
+    }
+    while (!pending.empty()) {
+        const size_t index = pending.back();
+        pending.pop_back();
+        if (parents[index] >= 0)
+            toWorld[index] = toWorld[static_cast<size_t>(parents[index])];
+        toWorld[index] *= localTransform(nodes[index], pose.empty() ? NodePose{} : pose[index]);
+        for (const int child : nodes[index].children)
+            pending.push_back(static_cast<size_t>(child));
+    }
+    return toWorld;
+}
+
+// KHR_node_visibility.
+bool isHidden(const tinygltf::Node& node) {
+    const auto extension = node.extensions.find("KHR_node_visibility");
+    return extension != node.extensions.end() && extension->second.Has("visible") &&
+           !extension->second.Get("visible").Get<bool>();
 }
 
 } // namespace
 
-std::vector<PlacedNode> placeNodes(const GltfDocument& document) {
+NodeTree placeNodes(const GltfDocument& document, Pose pose) {
     const std::vector<int> parents = findParents(document);
     requireNoCycle(document, parents);
-    std::vector<PlacedNode> placed;
+    NodeTree tree;
+    tree.toWorld = worldTransforms(document, parents, pose);
+    tree.pose = std::move(pose);
     std::vector<bool> seen(parents.size(), false);
     std::vector<PlacedNode> pending;
+    const auto add = [&](int node, bool isVisible) {
+        pending.push_back({node, tree.toWorld[static_cast<size_t>(node)], isVisible});
+    };
     const std::vector<int> roots = findRoots(document, parents);
     for (auto root = roots.rbegin(); root != roots.rend(); ++root)
-        pending.push_back({*root, glm::dmat4(1.0)});
+        add(*root, true);
     while (!pending.empty()) {
         PlacedNode next = pending.back();
         pending.pop_back();
@@ -108,12 +141,12 @@ std::vector<PlacedNode> placeNodes(const GltfDocument& document) {
             throw document.error(nameOf(document, index) + " is listed twice by the scene");
         seen[index] = true;
         const tinygltf::Node& node = document.model.nodes[index];
-        next.toWorld *= localTransform(node);
+        next.isVisible = next.isVisible && !isHidden(node);
         for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
-            pending.push_back({*child, next.toWorld});
-        placed.push_back(next);
+            add(*child, next.isVisible);
+        tree.shown.push_back(next);
     }
-    return placed;
+    return tree;
 }
 
 } // namespace lavalight

@@ -5,6 +5,7 @@
 
 #include <glm/glm.hpp>
 
+#include "scene/gltf_animation.h"
 #include "scene/gltf_document.h"
 
 namespace lavalight {
@@ -13,11 +14,18 @@ namespace lavalight {
 struct PlacedNode {
     int node = -1;
     glm::dmat4 toWorld{1.0}; // double: deep hierarchies multiply many
+    bool isVisible = true;   // its mesh and its light; cameras are always there
 };
 
-// The nodes of the default scene (of scene 0 where none is named, of all root nodes where there are no
-// scenes), parents before children. Throws Error unless the nodes form a forest: cycles, nodes with two
-// parents.
-[[nodiscard]] std::vector<PlacedNode> placeNodes(const GltfDocument& document);
+// All nodes in one pose.
+struct NodeTree {
+    std::vector<PlacedNode> shown;   // parents before children
+    std::vector<glm::dmat4> toWorld; // of every node: joints may stand outside the scene
+    Pose pose;
+};
+
+// `shown` holds the nodes of the default scene (of scene 0 where none is named, of all root nodes where there
+// are no scenes). Throws Error unless the nodes form a forest: cycles, nodes with two parents.
+[[nodiscard]] NodeTree placeNodes(const GltfDocument& document, Pose pose);
 
 } // namespace lavalight

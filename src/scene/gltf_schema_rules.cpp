@@ -32,7 +32,8 @@ void addFileRules(std::vector<ObjectRule>& rules) {
     rules.push_back({"nodes[]",
                      {optional("name", Kind::text), indices("children", "nodes"), index("mesh", "meshes"),
                       index("camera", "cameras"), index("skin", "skins"), numbers("matrix", 16),
-                      numbers("translation", 3), numbers("rotation", 4), numbers("scale", 3)}});
+                      numbers("translation", 3), numbers("rotation", 4), numbers("scale", 3),
+                      numbers("weights", kAnyLength)}});
     rules.push_back({"cameras[]", {required("type", Kind::text), optional("name", Kind::text)}});
     rules.push_back({"cameras[].perspective",
                      {required("yfov", Kind::number), required("znear", Kind::number),
@@ -74,14 +75,34 @@ void addDataRules(std::vector<ObjectRule>& rules) {
     rules.push_back(
         {"accessors[].sparse.values",
          {index("bufferView", "bufferViews", Need::required), optional("byteOffset", Kind::small)}});
-    rules.push_back(
-        {"meshes[]",
-         {{"primitives", Kind::object, Need::required, kAnyLength}, optional("name", Kind::text)}});
+    rules.push_back({"meshes[]",
+                     {{"primitives", Kind::object, Need::required, kAnyLength},
+                      optional("name", Kind::text),
+                      numbers("weights", kAnyLength)}});
     rules.push_back({"meshes[].primitives[]",
                      {required("attributes", Kind::object), index("indices", "accessors"),
                       index("material", "materials"), optional("mode", Kind::mode)}});
     rules.push_back({"meshes[].primitives[].attributes", {index("*", "accessors")}});
     rules.push_back({"meshes[].primitives[].targets[]", {index("*", "accessors")}});
+}
+
+// Compressed buffer views and primitives, instances, visibility.
+void addGeometryExtensionRules(std::vector<ObjectRule>& rules) {
+    for (const char* view : {"bufferViews[].extensions.EXT_meshopt_compression",
+                             "bufferViews[].extensions.KHR_meshopt_compression"})
+        rules.push_back(
+            {view,
+             {index("buffer", "buffers", Need::required), optional("byteOffset", Kind::count),
+              required("byteLength", Kind::count), required("byteStride", Kind::count),
+              required("count", Kind::count), required("mode", Kind::text), optional("filter", Kind::text)}});
+    const char* draco = "meshes[].primitives[].extensions.KHR_draco_mesh_compression";
+    rules.push_back(
+        {draco, {index("bufferView", "bufferViews", Need::required), required("attributes", Kind::object)}});
+    rules.push_back({"meshes[].primitives[].extensions.KHR_draco_mesh_compression.attributes",
+                     {optional("*", Kind::small)}});
+    rules.push_back({"nodes[].extensions.EXT_mesh_gpu_instancing", {optional("attributes", Kind::object)}});
+    rules.push_back({"nodes[].extensions.EXT_mesh_gpu_instancing.attributes", {index("*", "accessors")}});
+    rules.push_back({"nodes[].extensions.KHR_node_visibility", {optional("visible", Kind::flag)}});
 }
 
 void addMaterialRules(std::vector<ObjectRule>& rules) {
@@ -118,11 +139,18 @@ void addMaterialRules(std::vector<ObjectRule>& rules) {
 void addMotionRules(std::vector<ObjectRule>& rules) {
     rules.push_back({"skins[]",
                      {index("inverseBindMatrices", "accessors"), index("skeleton", "nodes"),
-                      indices("joints", "nodes")}});
-    rules.push_back({"animations[].channels[].target", {index("node", "nodes")}});
+                      indices("joints", "nodes"), optional("name", Kind::text)}});
+    rules.push_back({"animations[]",
+                     {{"channels", Kind::object, Need::optional, kAnyLength},
+                      {"samplers", Kind::object, Need::optional, kAnyLength},
+                      optional("name", Kind::text)}});
     rules.push_back(
-        {"animations[].samplers[]",
-         {index("input", "accessors", Need::required), index("output", "accessors", Need::required)}});
+        {"animations[].channels[]", {required("sampler", Kind::small), required("target", Kind::object)}});
+    rules.push_back(
+        {"animations[].channels[].target", {index("node", "nodes"), required("path", Kind::text)}});
+    rules.push_back({"animations[].samplers[]",
+                     {index("input", "accessors", Need::required),
+                      index("output", "accessors", Need::required), optional("interpolation", Kind::text)}});
 }
 
 } // namespace
@@ -132,6 +160,7 @@ std::vector<ObjectRule> gltfSchemaRules() {
     addFileRules(rules);
     addLightRules(rules);
     addDataRules(rules);
+    addGeometryExtensionRules(rules);
     addMaterialRules(rules);
     addMotionRules(rules);
     return rules;

@@ -7,9 +7,9 @@
 namespace lavalight {
 
 struct ImportOptions {
-    std::optional<double> seconds; // the animations' time; none: nodes stay where the file places them
-    std::string animation;         // name or index; empty: the first
-    std::string variant;           // of the materials, by name or index; empty: none
+    std::optional<double> seconds{}; // the animations' time; none: nodes stay where the file places them
+    std::string animation{};         // name or index; empty: the first
+    std::string variant{};           // of the materials, by name or index; empty: none
 };
 
 } // namespace lavalight

@@ -98,40 +98,55 @@ void repairNormals(Mesh& mesh, BakeCounts& counts) {
     }
 }
 
-// A tangent is an edge of the surface and goes with the matrix itself. With the bitangent w * cross(normal,
-// tangent) and a normal that keeps its side, a mirror turns w. Only normals make sense of tangents: glTF has
-// flat meshes ignore theirs.
-void bakeTangents(Mesh& mesh, const glm::dmat3& transform, BakeCounts& counts) {
+// Only normals make sense of tangents: glTF has flat meshes ignore theirs.
+void repairTangents(Mesh& mesh, BakeCounts& counts) {
     if (mesh.normals.empty())
         mesh.tangents.clear();
-    const float mirror = glm::determinant(transform) < 0.0 ? -1.0f : 1.0f;
     for (size_t i = 0; i < mesh.tangents.size(); ++i) {
         glm::vec4& tangent = mesh.tangents[i];
-        glm::vec3 direction = unitOrZero(transform * glm::dvec3(tangent));
-        if (direction == glm::vec3(0.0f)) {
-            direction = anyTangent(mesh.normals[i]);
-            ++counts.repairedTangents;
-        }
-        tangent = glm::vec4(direction, tangent.w < 0.0f ? -mirror : mirror);
+        if (glm::vec3(tangent) != glm::vec3(0.0f))
+            continue;
+        tangent = glm::vec4(anyTangent(mesh.normals[i]), tangent.w);
+        ++counts.repairedTangents;
     }
 }
 
 } // namespace
 
+VertexTransform::VertexTransform(const glm::dmat4& toWorld)
+    : toWorld_(toWorld), normals_(normalTransform(toWorld)),
+      isMirrored_(glm::determinant(glm::dmat3(toWorld)) < 0.0) {}
+
+void VertexTransform::apply(Mesh& mesh, size_t vertex) const {
+    mesh.positions[vertex] = glm::vec3(toWorld_ * glm::dvec4(mesh.positions[vertex], 1.0));
+    if (!mesh.normals.empty())
+        mesh.normals[vertex] = unitOrZero(normals_ * glm::dvec3(mesh.normals[vertex]));
+    if (mesh.tangents.empty())
+        return;
+    // A tangent is an edge of the surface and goes with the matrix itself. With the bitangent w *
+    // cross(normal, tangent) and a normal that keeps its side, a mirror turns w.
+    const glm::vec4 tangent = mesh.tangents[vertex];
+    const bool isNegative = (tangent.w < 0.0f) != isMirrored_;
+    mesh.tangents[vertex] =
+        glm::vec4(unitOrZero(glm::dmat3(toWorld_) * glm::dvec3(tangent)), isNegative ? -1.0f : 1.0f);
+}
+
+void cleanMesh(Mesh& mesh, BakeCounts& counts) {
+    dropUnusable(mesh, counts);
+    repairNormals(mesh, counts);
+    repairTangents(mesh, counts);
+}
+
 Mesh bakeMesh(const Mesh& local, const glm::dmat4& toWorld, BakeCounts& counts) {
     Mesh mesh = local;
-    for (glm::vec3& position : mesh.positions)
-        position = glm::vec3(toWorld * glm::dvec4(position, 1.0));
-    if (glm::determinant(glm::dmat3(toWorld)) < 0.0) {
+    const VertexTransform transform(toWorld);
+    for (size_t i = 0; i < mesh.positions.size(); ++i)
+        transform.apply(mesh, i);
+    if (transform.isMirrored()) {
         for (glm::uvec3& triangle : mesh.triangles)
             std::swap(triangle.y, triangle.z);
     }
-    dropUnusable(mesh, counts);
-    const glm::dmat3 transform = normalTransform(toWorld);
-    for (glm::vec3& normal : mesh.normals)
-        normal = unitOrZero(transform * glm::dvec3(normal));
-    repairNormals(mesh, counts);
-    bakeTangents(mesh, glm::dmat3(toWorld), counts);
+    cleanMesh(mesh, counts);
     return mesh;
 }
 

@@ -17,6 +17,26 @@ struct BakeCounts {
     uint64_t repairedTangents = 0; // vertices whose tangent had no direction and got one along the surface
 };
 
+// Takes vertices to world space.
+class VertexTransform {
+  public:
+    explicit VertexTransform(const glm::dmat4& toWorld);
+
+    // Vertex i with its normal and tangent, which may have any length before and have unit length, or none,
+    // after.
+    void apply(Mesh& mesh, size_t vertex) const;
+    [[nodiscard]] bool isMirrored() const { return isMirrored_; } // triangles must turn the other way
+
+  private:
+    glm::dmat4 toWorld_;
+    glm::dmat3 normals_;
+    bool isMirrored_;
+};
+
+// Drops triangles of a mesh in world space that cannot be rendered, and repairs normals and tangents without
+// direction.
+void cleanMesh(Mesh& mesh, BakeCounts& counts);
+
 // `local` is a mesh in its own space, with normals and tangents of any length. The result's front faces turn
 // counter-clockwise even where `toWorld` mirrors.
 [[nodiscard]] Mesh bakeMesh(const Mesh& local, const glm::dmat4& toWorld, BakeCounts& counts);

@@ -148,6 +148,12 @@ struct PunctualLight {
     float outerConeAngle = 0.7853982f;      // nothing outside
 };
 
+// What a file can play; Scene holds one moment of it.
+struct Animation {
+    std::string name;
+    float seconds = 0.0f; // the time of its last key
+};
+
 struct Bounds {
     glm::vec3 lower{0.0f};
     glm::vec3 upper{0.0f};
@@ -170,6 +176,7 @@ struct Scene {
     std::vector<Picture> pictures;
     std::vector<Camera> cameras; // never empty after import: one that frames the scene stands in
     std::vector<PunctualLight> punctualLights;
+    std::vector<Animation> animations;
     glm::vec3 environment{0.0f}; // constant radiance from every direction that hits nothing
     Bounds bounds;
     std::vector<std::string> warnings;          // what was not understood, one line each, with names

@@ -10,6 +10,7 @@
 #include "base/file.h"
 #include "support/run_program.h"
 #include "support/temporary_folder.h"
+#include "unit/scene/gltf_builder.h"
 
 namespace lavalight {
 namespace {
@@ -152,6 +153,43 @@ TEST_F(Info, RealScenesAreValidJson) {
     ASSERT_EQ(result.exitCode, 0) << result.err;
     EXPECT_GT(json::parse(result.out).at("triangles"), 0);
     EXPECT_GT(json::parse(result.out).at("emissiveTriangles"), 0);
+}
+
+// The triangle slides from x = 0 to x = 8 in 2 seconds.
+std::string slidingTriangle() {
+    test::GltfBuilder builder;
+    builder.addNode({{"mesh", builder.addTriangle()}});
+    const int keys = builder.addVec3({{0, 0, 0}, {8, 0, 0}});
+    const int times = builder.addIndices<float>({0, 2}, test::kFloat);
+    builder.json["animations"] = {
+        {{"name", "slide"},
+         {"samplers", {{{"input", times}, {"output", keys}}}},
+         {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}}}}}};
+    return builder.glb();
+}
+
+TEST_F(Info, ListsAnimationsAndShowsTheSceneAtTheTimeAskedFor) {
+    writeFileAtomically(folder_ / "slide.glb", slidingTriangle());
+    const json still = json::parse(run({"info", "slide.glb", "--json"}).out);
+    EXPECT_EQ(still.at("animations"), json::parse(R"([{"name": "slide", "seconds": 2.0}])"));
+    EXPECT_EQ(still.at("bounds").at("upper").at(0), 1.0);
+    const json moved = json::parse(run({"info", "slide.glb", "--json", "--at", "1"}).out);
+    EXPECT_EQ(moved.at("bounds").at("upper").at(0), 5.0);
+    EXPECT_NE(run({"info", "slide.glb"}).out.find("animation 0          \"slide\": 2 s"), std::string::npos);
+}
+
+TEST_F(Info, AnimationsThatAreNotThereAreWrongUsage) {
+    writeFileAtomically(folder_ / "slide.glb", slidingTriangle());
+    for (const std::vector<std::string>& wrong :
+         std::vector<std::vector<std::string>>{{"info", "slide.glb", "--at", "0", "--animation", "jump"},
+                                               {"info", "slide.glb", "--animation", "slide"},
+                                               {"info", "slide.glb", "--at", "nan"},
+                                               {"info", "cornell-box", "--at", "0"},
+                                               {"info", "dense-10", "--at", "0"}}) {
+        const ProgramResult result = run(wrong);
+        EXPECT_EQ(result.exitCode, 2) << result.err;
+        EXPECT_TRUE(result.err.starts_with("lavalight: error: ")) << result.err;
+    }
 }
 
 } // namespace

@@ -16,11 +16,14 @@ void main() {
     const uint batch = gl_GlobalInvocationID.x;
     if (batch >= means.length())
         return;
-    const Surface s = surfaceOf(fetchMaterial(material), true);
+    const MaterialRecord record = fetchMaterial(material);
+    Surface s = surfaceOf(record, true);
+    s.clearcoat.normal = normalize(vec3(record.clearcoatNormalScale, 0.0, 1.0));
     vec3 sum = vec3(0.0);
     for (uint i = 0u; i < kBatch; ++i) {
         const SampleKey key = SampleKey(4u, batch, i, material);
-        sum += sampleBsdf(s, wo, sample2D(key, kDimensionBsdf), sample1D(key, kDimensionLobe)).weight;
+        const BsdfSample drawn = sampleBsdf(s, wo, sample2D(key, kDimensionBsdf), sample1D(key, kDimensionLobe));
+        sum += drawn.weight * (drawn.eta * drawn.eta); // flux, where the weight is of radiance
     }
     means[batch] = vec4(sum / float(kBatch), 0.0);
 }

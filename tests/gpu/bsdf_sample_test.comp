@@ -23,7 +23,9 @@ void main() {
     const uint i = gl_GlobalInvocationID.x;
     if (i >= answers.length())
         return;
-    const Surface s = surfaceOf(fetchMaterial(material), true);
+    const MaterialRecord record = fetchMaterial(material);
+    Surface s = surfaceOf(record, true);
+    s.clearcoat.normal = normalize(vec3(record.clearcoatNormalScale, 0.0, 1.0));
     const SampleKey key = SampleKey(3u, i, material, 1u);
     const BsdfSample drawn = sampleBsdf(s, wo, sample2D(key, kDimensionBsdf), sample1D(key, kDimensionLobe));
     answers[i] =

@@ -2,12 +2,14 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 #include <vector>
 
 #include <fmt/format.h>
 #include <glm/glm.hpp>
 #include <gtest/gtest.h>
 
+#include "shared/frame.h"
 #include "support/chi_square.h"
 #include "support/run_kernel.h"
 #include "support/test_device.h"
@@ -46,7 +48,7 @@ struct Answer { // as in bsdf_test.comp
 };
 
 constexpr size_t kSamples = 100000;
-constexpr size_t kRings = 16;
+constexpr size_t kRings = 32; // from the zenith to the nadir
 constexpr size_t kSectors = 32;
 constexpr size_t kPointsPerSide = 16; // of a bin, for its integral
 constexpr size_t kPoints = kPointsPerSide * kPointsPerSide;
@@ -75,12 +77,12 @@ double azimuthStep(double sector) {
     return 3.0 * kPi * s * s * 2.0 / kSectors;
 }
 
-// Bin of a direction of the upper hemisphere.
+// Bin of a direction.
 size_t binOf(const glm::dvec3& w) {
-    const double theta = std::acos(std::min(w.z, 1.0));
+    const double theta = std::acos(std::clamp(w.z, -1.0, 1.0));
     const double turn = std::remainder(std::atan2(w.y, w.x) - kMirrorAzimuth, 2.0 * kPi);
     const double sector = 0.5 * (std::cbrt(turn / kPi) + 1.0) * kSectors;
-    const auto ring = std::min(static_cast<size_t>(theta / (0.5 * kPi) * kRings), kRings - 1);
+    const auto ring = std::min(static_cast<size_t>(theta / kPi * kRings), kRings - 1);
     return ring * kSectors + std::min(static_cast<size_t>(sector), kSectors - 1);
 }
 
@@ -97,23 +99,31 @@ BinPoints makeBinPoints() {
     BinPoints points;
     for (size_t bin = 0; bin < kRings * kSectors; ++bin)
         for (size_t i = 0; i < kPoints; ++i) {
-            const double theta = 0.5 * kPi * middle(bin / kSectors, i % kPointsPerSide) / kRings;
+            const double theta = kPi * middle(bin / kSectors, i % kPointsPerSide) / kRings;
             const double sector = middle(bin % kSectors, i / kPointsPerSide);
             const double phi = azimuthAt(sector);
             points.directions.emplace_back(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi),
                                            std::cos(theta));
-            points.solidAngles.push_back(std::sin(theta) * (0.5 * kPi / kRings) * azimuthStep(sector) /
-                                         kPoints);
+            points.solidAngles.push_back(std::sin(theta) * (kPi / kRings) * azimuthStep(sector) / kPoints);
         }
     return points;
+}
+
+std::vector<TestMaterial> joined(const std::vector<std::vector<TestMaterial>>& lists) {
+    std::vector<TestMaterial> all;
+    for (const std::vector<TestMaterial>& list : lists)
+        all.insert(all.end(), list.begin(), list.end());
+    return all;
 }
 
 class BsdfSampleTest : public DeviceTest {
   protected:
     // A runner of the named kernel over these materials.
     struct Bench {
-        Bench(gpu::Device& device, const std::vector<TestMaterial>& list, const char* kernel)
-            : materials(device, list), runner(device, test_kernels::find(kernel), materials.resources()) {}
+        Bench(gpu::Device& device, const std::vector<TestMaterial>& list, const char* kernel,
+              std::span<const gpu::SpecialisationConstant> constants = {})
+            : materials(device, list),
+              runner(device, test_kernels::find(kernel), materials.resources(), constants) {}
         MaterialBuffers materials;
         KernelRunner runner;
     };
@@ -135,6 +145,19 @@ class BsdfSampleTest : public DeviceTest {
         EXPECT_LE(sum, 1.003 * kSamples) << "the pdf integrates to more than one";
         return expected;
     }
+    void expectDensities(const std::vector<TestMaterial>& materials,
+                         std::span<const gpu::SpecialisationConstant> constants) {
+        Bench eval(device(), materials, "bsdf_test", constants);
+        Bench sample(device(), materials, "bsdf_sample_test", constants);
+        const BinPoints points = makeBinPoints();
+        for (uint32_t material = 0; material < materials.size(); ++material)
+            for (const float cosTheta : kCosines) {
+                SCOPED_TRACE(fmt::format("{}, cosine {}", materials[material].name, cosTheta));
+                const Push push{woAt(cosTheta), material};
+                const std::vector<double> expected = expectedCounts(eval.runner, points, push);
+                EXPECT_GT(chiSquare(countSamples(sample.runner, push), expected).pValue, kLeastPValue);
+            }
+    }
     static std::vector<uint32_t> countSamples(KernelRunner& sample, const Push& push) {
         std::vector<uint32_t> counts(kRings * kSectors + 1);
         for (const SampleAnswer& answer : sample.generate<SampleAnswer>(kSamples, push))
@@ -143,22 +166,24 @@ class BsdfSampleTest : public DeviceTest {
     }
 };
 
+// Samples of delta lobes count with those that are absorbed.
 TEST_F(BsdfSampleTest, DirectionsHaveTheDensityThatThePdfSays) {
-    const std::vector<TestMaterial> materials = roughMaterials();
-    Bench eval(device(), materials, "bsdf_test");
-    Bench sample(device(), materials, "bsdf_sample_test");
-    const BinPoints points = makeBinPoints();
-    for (uint32_t material = 0; material < materials.size(); ++material)
-        for (const float cosTheta : kCosines) {
-            SCOPED_TRACE(fmt::format("{}, cosine {}", materials[material].name, cosTheta));
-            const Push push{woAt(cosTheta), material};
-            const std::vector<double> expected = expectedCounts(eval.runner, points, push);
-            EXPECT_GT(chiSquare(countSamples(sample.runner, push), expected).pValue, kLeastPValue);
-        }
+    const std::vector<TestMaterial> materials =
+        joined({roughMaterials(), layeredMaterials(), tiltedCoats(), transmissiveMaterials(),
+                solidMaterials(), smoothLayers()});
+    expectDensities(materials, {});
+}
+
+TEST_F(BsdfSampleTest, MultipleScatteringHasItsDensityToo) {
+    std::vector<TestMaterial> materials = joined({roughMaterials(), layeredMaterials()});
+    std::erase_if(materials, [](const TestMaterial& material) { return material.record.metallic == 0.0f; });
+    const std::vector<gpu::SpecialisationConstant> constants = {{CONSTANT_MULTIPLE_SCATTERING, 1}};
+    expectDensities(materials, constants);
 }
 
 TEST_F(BsdfSampleTest, WeightTimesPdfIsEval) {
-    const std::vector<TestMaterial> materials = roughMaterials();
+    const std::vector<TestMaterial> materials = joined(
+        {roughMaterials(), layeredMaterials(), tiltedCoats(), transmissiveMaterials(), solidMaterials()});
     Bench sample(device(), materials, "bsdf_sample_test");
     for (uint32_t material = 0; material < materials.size(); ++material)
         for (const float cosTheta : kCosines) {

@@ -12,7 +12,7 @@ struct Question {
 struct Answer {
     vec3 f;        // evalBsdf(wo, wi)
     float pdf;     // pdfBsdf(wo, wi)
-    vec3 swapped;  // evalBsdf(wi, wo)
+    vec3 swapped;  // evalBsdf(wi, wo), both mirrored to the other side if wi lies there
     float unused;
 };
 
@@ -25,6 +25,10 @@ void main() {
     if (i >= answers.length())
         return;
     const Question q = questions[i];
-    const Surface s = surfaceOf(fetchMaterial(q.material), true);
-    answers[i] = Answer(evalBsdf(s, q.wo, q.wi), pdfBsdf(s, q.wo, q.wi), evalBsdf(s, q.wi, q.wo), 0.0);
+    const MaterialRecord record = fetchMaterial(q.material);
+    Surface s = surfaceOf(record, true);
+    s.clearcoat.normal = normalize(vec3(record.clearcoatNormalScale, 0.0, 1.0));
+    const vec3 side = vec3(1.0, 1.0, sign(q.wi.z));
+    const vec3 swapped = evalBsdf(s, q.wi * side, q.wo * side);
+    answers[i] = Answer(evalBsdf(s, q.wo, q.wi), pdfBsdf(s, q.wo, q.wi), swapped, 0.0);
 }

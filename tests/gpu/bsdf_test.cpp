@@ -1,4 +1,5 @@
 // The BSDF is reciprocal, zero where it has to be, and pure Lambert where glTF asks for it.
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -6,6 +7,7 @@
 #include <glm/glm.hpp>
 #include <gtest/gtest.h>
 
+#include "shared/frame.h"
 #include "support/random_numbers.h"
 #include "support/run_kernel.h"
 #include "support/test_device.h"
@@ -32,10 +34,24 @@ struct Answer { // as in the kernel
 class BsdfTest : public DeviceTest {
   protected:
     std::vector<Answer> ask(const std::vector<TestMaterial>& materials,
-                            const std::vector<Question>& questions) {
+                            const std::vector<Question>& questions, bool multipleScattering = false) {
         const MaterialBuffers buffers(device(), materials);
-        KernelRunner runner(device(), test_kernels::find("bsdf_test"), buffers.resources());
+        const std::array<gpu::SpecialisationConstant, 1> constants = {
+            {{CONSTANT_MULTIPLE_SCATTERING, multipleScattering ? 1u : 0u}}};
+        KernelRunner runner(device(), test_kernels::find("bsdf_test"), buffers.resources(), constants);
         return runner.map<Answer>(questions);
+    }
+    void expectReciprocity(const std::vector<TestMaterial>& materials, const std::vector<Question>& questions,
+                           bool multipleScattering = false) {
+        const std::vector<Answer> answers = ask(materials, questions, multipleScattering);
+        for (size_t i = 0; i < questions.size(); ++i)
+            for (glm::length_t c = 0; c < 3; ++c) {
+                const float forwards = answers[i].f[c] / std::abs(questions[i].wi.z);
+                const float backwards = answers[i].swapped[c] / questions[i].wo.z;
+                ASSERT_NEAR(forwards, backwards, 2e-4f * std::max(forwards, backwards) + 1e-9f)
+                    << materials[questions[i].material].name << ": cosines " << questions[i].wo.z << ", "
+                    << questions[i].wi.z;
+            }
     }
 };
 
@@ -54,17 +70,20 @@ std::vector<Question> randomPairs(size_t materials, size_t perMaterial) {
 }
 
 TEST_F(BsdfTest, SwappedDirectionsReflectAlike) {
-    const std::vector<TestMaterial> materials = roughMaterials();
+    std::vector<TestMaterial> materials = roughMaterials();
+    for (const auto& list : {layeredMaterials(), transmissiveMaterials()})
+        materials.insert(materials.end(), list.begin(), list.end());
     const std::vector<Question> questions = randomPairs(materials.size(), 4096);
-    const std::vector<Answer> answers = ask(materials, questions);
-    for (size_t i = 0; i < questions.size(); ++i)
-        for (glm::length_t c = 0; c < 3; ++c) {
-            const float forwards = answers[i].f[c] / questions[i].wi.z;
-            const float backwards = answers[i].swapped[c] / questions[i].wo.z;
-            ASSERT_NEAR(forwards, backwards, 2e-4f * std::max(forwards, backwards) + 1e-9f)
-                << materials[questions[i].material].name << ": cosines " << questions[i].wo.z << ", "
-                << questions[i].wi.z;
-        }
+    expectReciprocity(materials, questions);
+    expectReciprocity(materials, questions, true);
+}
+
+TEST_F(BsdfTest, SwappedDirectionsTransmitAlike) {
+    const std::vector<TestMaterial> materials = transmissiveMaterials();
+    std::vector<Question> questions = randomPairs(materials.size(), 4096);
+    for (Question& question : questions)
+        question.wi.z *= -1.0f;
+    expectReciprocity(materials, questions);
 }
 
 TEST_F(BsdfTest, NothingIsTransmitted) {

@@ -7,8 +7,8 @@ layout(set = 0, binding = 0, std430) readonly buffer In { vec4 questions[]; }; /
 layout(set = 0, binding = 1, std430) writeonly buffer Out { vec4 answers[]; }; // the normal there, or its density in x
 layout(push_constant) uniform Push {
     vec3 wo;
-    float alpha;
     uint wantsPdf;
+    vec2 alpha;
 };
 
 void main() {

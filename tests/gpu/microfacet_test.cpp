@@ -21,8 +21,8 @@ namespace {
 
 struct Push { // as in the kernel
     glm::vec3 wo;
-    float alpha;
     uint32_t wantsPdf;
+    glm::vec2 alpha;
 };
 
 constexpr size_t kSamples = 100000;
@@ -33,8 +33,8 @@ constexpr double kPi = std::numbers::pi;
 
 // Normals are binned as stretched to a surface of alpha 1: m' = normalize(m.xy / alpha, m.z), where no lobe
 // is narrow.
-glm::dvec3 stretched(const glm::vec3& m, float alpha) {
-    return glm::normalize(glm::dvec3(m.x, m.y, double{alpha} * m.z));
+glm::dvec3 stretched(const glm::vec3& m, const glm::dvec2& alpha) {
+    return glm::normalize(glm::dvec3(glm::dvec2(m) / alpha, m.z));
 }
 
 struct Unstretched {
@@ -42,12 +42,12 @@ struct Unstretched {
     double solidAngle; // of m per solid angle of m'
 };
 
-Unstretched unstretched(double cosTheta, double phi, float alpha) {
+Unstretched unstretched(double cosTheta, double phi, const glm::dvec2& alpha) {
     const double sinTheta = std::sqrt(1.0 - cosTheta * cosTheta);
-    const glm::dvec3 m(alpha * sinTheta * std::cos(phi), alpha * sinTheta * std::sin(phi), cosTheta);
+    const glm::dvec3 m(alpha.x * sinTheta * std::cos(phi), alpha.y * sinTheta * std::sin(phi), cosTheta);
     const double length = glm::length(m);
     // A linear map A takes solid angles dw to |det A| / |A w|^3 dw.
-    return {glm::vec3(m / length), double{alpha} * alpha / (length * length * length)};
+    return {glm::vec3(m / length), alpha.x * alpha.y / (length * length * length)};
 }
 
 class MicrofacetTest : public DeviceTest {
@@ -56,13 +56,13 @@ class MicrofacetTest : public DeviceTest {
         DeviceTest::SetUp();
         runner_.emplace(device(), test_kernels::find("microfacet_test"));
     }
-    std::vector<glm::vec4> ask(const std::vector<glm::vec4>& questions, const glm::vec3& wo, float alpha,
-                               bool wantsPdf) {
-        const Push push{wo, alpha, wantsPdf ? 1u : 0u};
+    std::vector<glm::vec4> ask(const std::vector<glm::vec4>& questions, const glm::vec3& wo,
+                               const glm::vec2& alpha, bool wantsPdf) {
+        const Push push{wo, wantsPdf ? 1u : 0u, alpha};
         return runner_->run<glm::vec4>(std::span<const glm::vec4>(questions), questions.size(),
                                        std::as_bytes(std::span(&push, 1)));
     }
-    std::vector<uint32_t> countSamples(const glm::vec3& wo, float alpha) {
+    std::vector<uint32_t> countSamples(const glm::vec3& wo, const glm::vec2& alpha) {
         Random random(1);
         std::vector<glm::vec4> u(kSamples);
         for (glm::vec4& x : u)
@@ -78,7 +78,7 @@ class MicrofacetTest : public DeviceTest {
         }
         return counts;
     }
-    std::vector<double> expectedCounts(const glm::vec3& wo, float alpha) {
+    std::vector<double> expectedCounts(const glm::vec3& wo, const glm::vec2& alpha) {
         constexpr size_t points = kPointsPerSide * kPointsPerSide;
         std::vector<glm::vec4> normals;
         std::vector<double> weights;
@@ -104,12 +104,13 @@ class MicrofacetTest : public DeviceTest {
 };
 
 TEST_F(MicrofacetTest, VisibleNormalsHaveTheDensityThatTheirPdfSays) {
-    for (const float alpha : {0.002f, 0.05f, 0.3f, 1.0f})
+    for (const glm::vec2& alpha : {glm::vec2(0.002f), glm::vec2(0.05f), glm::vec2(0.3f), glm::vec2(1.0f),
+                                   glm::vec2(0.5f, 0.1f), glm::vec2(1.0f, 0.02f), glm::vec2(0.1f, 0.4f)})
         for (const float cosTheta : {1.0f, 0.8f, 0.3f, 0.02f}) {
             const float sinTheta = std::sqrt(1.0f - cosTheta * cosTheta);
             const glm::vec3 wo(0.6f * sinTheta, -0.8f * sinTheta, cosTheta);
             const std::vector<double> expected = expectedCounts(wo, alpha);
-            const std::string where = fmt::format("alpha {} cosine {}", alpha, cosTheta);
+            const std::string where = fmt::format("alpha {} {} cosine {}", alpha.x, alpha.y, cosTheta);
             double sum = 0.0;
             for (const double e : expected)
                 sum += e / kSamples;

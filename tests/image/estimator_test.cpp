@@ -83,11 +83,49 @@ Scene glassScene() {
         .build();
 }
 
-class MaterialsTest : public EstimatorTest {};
+// A varnished metal, velvet, a leaf of paper, brushed metal and a soap film on glass.
+Scene layeredScene() {
+    Material varnished = lambert({0.8f, 0.2f, 0.1f});
+    varnished.specular = 1.0f;
+    varnished.roughness = 0.5f;
+    varnished.clearcoat = 1.0f;
+    varnished.clearcoatRoughness = 0.0f;
+    Material velvet = lambert({0.2f, 0.1f, 0.4f});
+    velvet.sheenColor = {0.9f, 0.7f, 0.9f};
+    velvet.sheenRoughness = 0.3f;
+    velvet.clearcoat = 0.3f;
+    velvet.clearcoatRoughness = 0.4f;
+    Material leaf = lambert({0.3f, 0.7f, 0.1f});
+    leaf.diffuseTransmission = 0.5f;
+    leaf.diffuseTransmissionColor = {0.9f, 0.8f, 0.2f};
+    leaf.doubleSided = true;
+    Material brushed;
+    brushed.roughness = 0.3f;
+    brushed.anisotropy = 0.7f;
+    brushed.iridescence = 1.0f;
+    return SceneBuilder()
+        .add(rectangle({0, 0, 0}, {0, 0, 4}, {4, 0, 0}), velvet)
+        .add(ball({-1.1f, 0.8f, 0}, 0.8f), varnished)
+        .add(ball({0.9f, 0.7f, -0.5f}, 0.7f), brushed)
+        .add(rectangle({0.6f, 1.2f, 1}, {0.7f, 0, 0.3f}, {0, 0.5f, 0}), leaf)
+        .add(rectangle({0, 4, -1}, {1.2f, 0, 0}, {0, 0, 1.2f}), light({4, 4, 5}))
+        .environment({0.2f, 0.25f, 0.3f})
+        .camera(lookAt({1, 2, 6}, {0, 0.9f, 0}, 0.6f))
+        .build();
+}
+
+class MaterialsTest : public EstimatorTest {
+  protected:
+    static Scene sceneOf(const std::string& name) {
+        if (name == "layered")
+            return layeredScene();
+        return name == "glass" ? glassScene() : glossyScene();
+    }
+};
 
 // Under a lamp without size, too, which nothing but next-event estimation finds.
 TEST_P(MaterialsTest, EverySettingHasTheMeanOfTheDefault) {
-    Scene scene = std::string(GetParam().name) == "glass" ? glassScene() : glossyScene();
+    Scene scene = sceneOf(GetParam().name);
     PunctualLight lamp;
     lamp.position = {2.0f, 3.0f, 2.0f};
     lamp.intensity = glm::vec3(4.0f);
@@ -98,7 +136,8 @@ TEST_P(MaterialsTest, EverySettingHasTheMeanOfTheDefault) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, MaterialsTest,
-                         testing::Values(Subject{"glossy", 0.5}, Subject{"glass", 0.5}),
+                         testing::Values(Subject{"glossy", 0.5}, Subject{"glass", 0.5},
+                                         Subject{"layered", 0.5}),
                          [](const auto& subject) { return std::string(subject.param.name); });
 
 } // namespace

@@ -46,6 +46,49 @@ MaterialRecord partlySpecular(float roughness) {
     return record;
 }
 
+MaterialRecord clearcoated(MaterialRecord record, float clearcoat, float roughness) {
+    record.clearcoat = clearcoat;
+    record.clearcoatRoughness = roughness;
+    return record;
+}
+
+MaterialRecord withTiltedCoat(MaterialRecord record) {
+    record.clearcoatNormalScale = 0.3f;
+    return record;
+}
+
+MaterialRecord withSheen(MaterialRecord record, const glm::vec3& color, float roughness) {
+    record.sheenColor = color;
+    record.sheenRoughness = roughness;
+    return record;
+}
+
+MaterialRecord anisotropic(MaterialRecord record, float strength) {
+    record.anisotropy = strength;
+    return record;
+}
+
+MaterialRecord withFilm(MaterialRecord record, float ior, float thickness) {
+    record.iridescence = 1.0f;
+    record.iridescenceIor = ior;
+    record.iridescenceThicknessMaximum = thickness;
+    return record;
+}
+
+MaterialRecord glass(float roughness, bool isSolid) {
+    MaterialRecord record = dielectric(glm::vec3(1.0f), roughness);
+    record.transmission = 1.0f;
+    record.flags = isSolid ? kMaterialSolid : 0u;
+    return record;
+}
+
+MaterialRecord leaf(const glm::vec3& reflected, const glm::vec3& transmitted) {
+    MaterialRecord record = dielectric(reflected, 0.4f);
+    record.diffuseTransmission = 0.6f;
+    record.diffuseTransmissionColor = transmitted;
+    return record;
+}
+
 gpu::Buffer uploadRecords(gpu::Device& device, std::span<const TestMaterial> materials) {
     std::vector<MaterialRecord> records;
     for (const TestMaterial& material : materials)
@@ -82,6 +125,68 @@ std::vector<TestMaterial> smoothMaterials() {
             {"smooth white dielectric", dielectric(white, 0.0f)},
             {"white dielectric, roughness 0.08", dielectric(white, 0.08f)},
             {"smooth white half metal", halfMetal(white, 0.0f)}};
+}
+
+std::vector<TestMaterial> layeredMaterials() {
+    const glm::vec3 white(1.0f);
+    const glm::vec3 gold(1.0f, 0.766f, 0.336f);
+    const MaterialRecord plain = dielectric(white, 0.5f);
+    return {{"anisotropic gold", anisotropic(metal(gold, 0.3f), 0.6f)},
+            {"anisotropic white dielectric", anisotropic(dielectric(white, 0.3f), 1.0f)},
+            {"anisotropic rough white", anisotropic(plain, 0.5f)},
+            {"clearcoat 0.4 over white dielectric", clearcoated(plain, 1.0f, 0.4f)},
+            {"half a clearcoat over white metal", clearcoated(metal(white, 0.3f), 0.5f, 0.6f)},
+            {"white sheen 0.3 over white", withSheen(lambert(white), white, 0.3f)},
+            {"white sheen 0.15 over white", withSheen(lambert(white), white, 0.15f)},
+            {"white sheen 0.1 over black", withSheen(lambert(glm::vec3(0.0f)), white, 0.1f)},
+            {"white sheen 1 over white dielectric", withSheen(plain, white, 1.0f)},
+            {"coloured sheen over gold", withSheen(metal(gold, 0.4f), {0.9f, 0.1f, 0.4f}, 0.5f)},
+            {"clearcoat, sheen, white", clearcoated(withSheen(plain, {0.5f, 0.8f, 1.0f}, 0.4f), 1.0f, 0.3f)},
+            {"film over white dielectric", withFilm(dielectric(white, 0.3f), 1.8f, 500.0f)},
+            {"film over rough white dielectric", withFilm(dielectric(white, 1.0f), 1.3f, 300.0f)},
+            {"film over white metal", withFilm(metal(white, 0.3f), 1.5f, 400.0f)},
+            {"film over gold", withFilm(metal(gold, 0.5f), 2.0f, 250.0f)},
+            {"film over white half metal", withFilm(halfMetal(white, 0.4f), 1.6f, 350.0f)}};
+}
+
+std::vector<TestMaterial> tiltedCoats() {
+    const glm::vec3 white(1.0f);
+    return {{"tilted coat over white dielectric",
+             withTiltedCoat(clearcoated(dielectric(white, 0.5f), 1.0f, 0.6f))},
+            {"tilted coat over white metal", withTiltedCoat(clearcoated(metal(white, 0.4f), 0.7f, 0.5f))}};
+}
+
+std::vector<TestMaterial> transmissiveMaterials() {
+    const glm::vec3 white(1.0f);
+    return {{"leaf", leaf(white, {1.0f, 0.6f, 0.2f})},
+            {"leaf under sheen and clearcoat",
+             clearcoated(withSheen(leaf(white, white), {0.7f, 0.5f, 0.5f}, 0.5f), 0.8f, 0.5f)},
+            {"rough pane", glass(0.4f, false)},
+            {"rough pane with a film", withFilm(glass(0.4f, false), 1.8f, 400.0f)},
+            {"rough pane, clearcoat", clearcoated(glass(0.4f, false), 1.0f, 0.3f)}};
+}
+
+std::vector<TestMaterial> solidMaterials() {
+    return {{"rough solid", glass(0.4f, true)},
+            {"rough solid with a film", withFilm(glass(0.5f, true), 1.4f, 500.0f)},
+            {"anisotropic solid", anisotropic(glass(0.4f, true), 0.5f)}};
+}
+
+std::vector<TestMaterial> smoothLayers() {
+    const glm::vec3 white(1.0f);
+    return {{"smooth clearcoat over white dielectric", clearcoated(dielectric(white, 0.5f), 1.0f, 0.0f)},
+            {"smooth clearcoat over white metal", clearcoated(metal(white, 0.4f), 1.0f, 0.0f)},
+            {"rough clearcoat over smooth metal", clearcoated(metal(white, 0.0f), 1.0f, 0.4f)},
+            {"tilted smooth clearcoat", withTiltedCoat(clearcoated(dielectric(white, 0.4f), 1.0f, 0.0f))},
+            {"smooth pane, rough clearcoat", clearcoated(glass(0.0f, false), 1.0f, 0.5f)},
+            {"sheen over smooth white dielectric", withSheen(dielectric(white, 0.0f), white, 0.5f)}};
+}
+
+std::vector<TestMaterial> smoothFilms() {
+    const glm::vec3 white(1.0f);
+    return {{"film over smooth white metal", withFilm(metal(white, 0.0f), 1.5f, 400.0f)},
+            {"film over smooth pane", withFilm(glass(0.0f, false), 1.8f, 300.0f)},
+            {"film over smooth solid", withFilm(glass(0.0f, true), 1.3f, 600.0f)}};
 }
 
 MaterialBuffers::MaterialBuffers(gpu::Device& device, std::span<const TestMaterial> materials)

@@ -22,6 +22,19 @@ struct TestMaterial {
 // Mirrors alone and over a diffuse base (metals first), and a surface too smooth for bins.
 [[nodiscard]] std::vector<TestMaterial> smoothMaterials();
 
+// Anisotropy, layers and films, rough and opaque.
+[[nodiscard]] std::vector<TestMaterial> layeredMaterials();
+// Clearcoats whose normal leans to x by the slope clearcoatNormalScale, as the test kernels take it.
+[[nodiscard]] std::vector<TestMaterial> tiltedCoats();
+// Rough, without an inside: alike from both sides.
+[[nodiscard]] std::vector<TestMaterial> transmissiveMaterials();
+// Rough boundaries of glass bodies.
+[[nodiscard]] std::vector<TestMaterial> solidMaterials();
+// Rough lobes beside smooth ones.
+[[nodiscard]] std::vector<TestMaterial> smoothLayers();
+// Nothing but smooth lobes.
+[[nodiscard]] std::vector<TestMaterial> smoothFilms();
+
 // Materials and the albedo table on the device, under the names of scene/material.glsl.
 class MaterialBuffers {
   public:

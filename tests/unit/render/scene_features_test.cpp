@@ -49,6 +49,38 @@ TEST(SceneFeatures, GlassIsWhatTransmitsAndIsNoMetal) {
     EXPECT_EQ(featuresOf(glass), kFeatureSpecular | kFeatureSmoothLobes);
 }
 
+TEST(SceneFeatures, LobesOfExtensionsAreNamed) {
+    Material material = lambert();
+    material.clearcoat = 0.5f;
+    EXPECT_EQ(featuresOf(material), kFeatureClearcoat | kFeatureSmoothLobes);
+    material.clearcoatRoughness = 0.5f;
+    EXPECT_EQ(featuresOf(material), kFeatureClearcoat | kFeatureRoughLobes);
+    material = lambert();
+    material.sheenColor = {0.0f, 0.1f, 0.0f};
+    EXPECT_EQ(featuresOf(material), kFeatureSheen);
+    material = lambert();
+    material.diffuseTransmission = 0.5f;
+    EXPECT_EQ(featuresOf(material), kFeatureDiffuseTransmission);
+    Material metal = lambert();
+    metal.metallic = 1.0f;
+    metal.roughness = 0.0f;
+    metal.iridescence = 0.5f;
+    EXPECT_EQ(featuresOf(metal), kFeatureSpecular | kFeatureSmoothLobes | kFeatureIridescence);
+    metal.iridescence = 0.0f;
+    metal.anisotropy = 0.5f; // rough along one axis
+    EXPECT_EQ(featuresOf(metal),
+              kFeatureSpecular | kFeatureSmoothLobes | kFeatureRoughLobes | kFeatureAnisotropy);
+}
+
+TEST(SceneFeatures, OnlySolidGlassDisperses) {
+    Material glass = lambert();
+    glass.transmission = 1.0f;
+    glass.dispersion = 1.0f;
+    EXPECT_EQ(featuresOf(glass), kFeatureGlass | kFeatureRoughLobes);
+    glass.isSolid = true;
+    EXPECT_EQ(featuresOf(glass), kFeatureGlass | kFeatureRoughLobes | kFeatureDispersion);
+}
+
 TEST(SceneFeatures, LightsAndNormalsAreNamed) {
     Scene scene;
     scene.materials = {lambert()};

@@ -1,0 +1,35 @@
+#include "app/scene_options.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+
+namespace lavalight {
+
+SceneOptions::SceneOptions(CLI::App& parser) : parser_(&parser) {
+    parser
+        .add_option("--at", seconds_,
+                    "Time of the animation; default: nothing is animated. Its first and last keys hold "
+                    "before and after it")
+        ->type_name("SECONDS");
+    parser
+        .add_option("--animation", options_.animation,
+                    "Animation by name or index (see lavalight info); default: the first")
+        ->type_name("NAME|INDEX");
+}
+
+ImportOptions SceneOptions::importOptions() const {
+    ImportOptions options = options_;
+    if (parser_->count("--at") > 0) {
+        if (!std::isfinite(seconds_))
+            throw UsageError(fmt::format("--at: {} is no time", seconds_));
+        options.seconds = seconds_;
+    } else if (!options.animation.empty()) {
+        throw UsageError("--animation: needs a time; give --at SECONDS");
+    }
+    return options;
+}
+
+} // namespace lavalight

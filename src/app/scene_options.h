@@ -1,0 +1,28 @@
+// The options of what to show of a scene, shared by the commands that load one.
+#pragma once
+
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "scene/import_options.h"
+
+namespace lavalight {
+
+// Must outlive the parsing; the parser points into it.
+class SceneOptions {
+  public:
+    explicit SceneOptions(CLI::App& parser);
+    SceneOptions(const SceneOptions&) = delete;
+    SceneOptions& operator=(const SceneOptions&) = delete;
+
+    // Throws UsageError naming the option and what it takes.
+    [[nodiscard]] ImportOptions importOptions() const;
+
+  private:
+    CLI::App* parser_; // asked which options were given
+    double seconds_ = 0.0;
+    ImportOptions options_;
+};
+
+} // namespace lavalight

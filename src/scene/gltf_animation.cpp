@@ -1,0 +1,98 @@
+// Animations (glTF 2.0 specification, section 3.11).
+#include "scene/gltf_animation.h"
+
+#include <algorithm>
+#include <charconv>
+
+#include <fmt/format.h>
+
+#include "scene/gltf_accessor.h"
+#include "scene/gltf_keyframes.h"
+
+namespace lavalight {
+namespace {
+
+// Keys may be broken in an animation that nobody asked for: only what is plain counts.
+float lastKey(const GltfDocument& document, const tinygltf::Animation& animation) {
+    float last = 0.0f;
+    for (const tinygltf::AnimationSampler& sampler : animation.samplers) {
+        const AccessorView times(document, sampler.input);
+        if (times.isScalar())
+            last = std::max(last, times.scalarAt(times.count() - 1));
+    }
+    return last;
+}
+
+std::optional<size_t> findAnimation(const std::vector<tinygltf::Animation>& animations,
+                                    const std::string& wanted) {
+    if (wanted.empty() && !animations.empty())
+        return 0;
+    for (size_t i = 0; i < animations.size(); ++i) {
+        if (!wanted.empty() && animations[i].name == wanted)
+            return i;
+    }
+    size_t index = 0;
+    const auto [end, error] = std::from_chars(wanted.data(), wanted.data() + wanted.size(), index);
+    const bool isIndex = !wanted.empty() && error == std::errc() && end == wanted.data() + wanted.size();
+    return isIndex && index < animations.size() ? std::optional(index) : std::nullopt;
+}
+
+[[noreturn]] void failUnknown(const GltfDocument& document, const std::string& wanted) {
+    const auto& animations = document.model.animations;
+    if (animations.empty())
+        throw UsageError(
+            fmt::format("{} has no animation that a time could be asked of", printable(document.source)));
+    std::string known;
+    for (size_t i = 0; i < animations.size(); ++i)
+        known += fmt::format("{}{} \"{}\"", i > 0 ? ", " : "", i, printable(animations[i].name));
+    throw UsageError(fmt::format("{} has no animation \"{}\"; it has {}", printable(document.source),
+                                 printable(wanted), known));
+}
+
+void applyChannel(const Keyframes& keys, const std::string& path, double seconds, NodePose& node) {
+    if (path == "translation") {
+        node.translation = glm::dvec3(keys.at(seconds, 0));
+    } else if (path == "rotation") {
+        node.rotation = keys.at(seconds, 0);
+    } else if (path == "scale") {
+        node.scale = glm::dvec3(keys.at(seconds, 0));
+    } else {
+        node.weights.clear();
+        for (size_t lane = 0; lane < keys.lanes(); ++lane)
+            node.weights.push_back(keys.at(seconds, lane).x);
+    }
+}
+
+} // namespace
+
+std::vector<Animation> listAnimations(const GltfDocument& document) {
+    std::vector<Animation> animations;
+    for (const tinygltf::Animation& animation : document.model.animations)
+        animations.push_back({printable(animation.name), lastKey(document, animation)});
+    return animations;
+}
+
+Pose poseAt(const GltfDocument& document, const ImportOptions& options) {
+    if (!options.seconds)
+        return {};
+    const std::optional<size_t> index = findAnimation(document.model.animations, options.animation);
+    if (!index)
+        failUnknown(document, options.animation);
+    const tinygltf::Animation& animation = document.model.animations[*index];
+    const std::string name = describe("animation", *index, animation.name);
+    Pose pose(document.model.nodes.size());
+    for (const tinygltf::AnimationChannel& channel : animation.channels) {
+        const std::string& path = channel.target_path;
+        if (path != "translation" && path != "rotation" && path != "scale" && path != "weights")
+            continue; // of extensions, which have been named as ignored
+        const auto sampler = static_cast<size_t>(channel.sampler);
+        if (channel.sampler < 0 || sampler >= animation.samplers.size())
+            throw document.error(fmt::format("{} has {} samplers, but a channel uses number {}", name,
+                                             animation.samplers.size(), channel.sampler));
+        const Keyframes keys(document, animation.samplers[sampler], path);
+        applyChannel(keys, path, *options.seconds, pose.at(static_cast<size_t>(channel.target_node)));
+    }
+    return pose;
+}
+
+} // namespace lavalight

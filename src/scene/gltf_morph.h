@@ -1,0 +1,22 @@
+// Morph targets.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "scene/gltf_animation.h"
+#include "scene/gltf_document.h"
+#include "scene/scene.h"
+
+namespace lavalight {
+
+// The weights of a node's mesh: those of the pose, else the node's own, else the mesh's. May be empty.
+[[nodiscard]] std::vector<double> morphWeights(const GltfDocument& document, int node, const Pose& pose);
+
+// Adds the primitive's targets by their weights to `mesh`, whose vertices are those of these numbers.
+// Attributes that the mesh lacks stay away, as do targets without a weight. Throws Error for targets of
+// another type or number than the vertices.
+void applyMorphTargets(const GltfDocument& document, const tinygltf::Primitive& primitive,
+                       const std::vector<uint32_t>& vertices, const std::vector<double>& weights, Mesh& mesh);
+
+} // namespace lavalight
