@@ -52,6 +52,10 @@ float missLightPdf(Ray ray) {
            environmentPdf(frame, ray.direction, ray.originCosine);
 }
 
+bool isTransmissiveSolid(MaterialRecord material) {
+    return (material.flags & kMaterialSolid) != 0u && (material.transmission > 0.0 || material.diffuseTransmission > 0.0);
+}
+
 // n and ng must agree about the side of wi.
 bool isSameSide(Vertex v, vec3 wi, float localZ) {
     return (dot(wi, v.surface.ng) > 0.0) == (localZ > 0.0);
@@ -139,9 +143,10 @@ NextRays scatter(Hit hit, Ray ray, uint slot, uint bounce, inout Path path) {
         return next;
     }
     Interaction surface = makeInteraction(hit, -ray.direction);
-    MaterialRecord material = texturedMaterial(fetchMaterial(surface.material), -ray.direction, surface);
-    if (sceneHas(kFeatureAttenuation) && !surface.isFront && (material.flags & kMaterialSolid) != 0u)
+    MaterialRecord material = fetchMaterial(surface.material);
+    if (sceneHas(kFeatureAttenuation) && !surface.isFront && isTransmissiveSolid(material))
         path.throughput *= exp(-material.attenuation * hit.t); // Beer-Lambert: the ray came through the inside
+    material = texturedMaterial(material, -ray.direction, surface);
 
     // ---- Emission ----
     if (sceneHas(kFeatureUnlit) && (material.flags & kMaterialUnlit) != 0u) {

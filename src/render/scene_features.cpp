@@ -53,7 +53,8 @@ uint32_t extendedLobesOf(const Material& material) {
 }
 
 bool attenuates(const Material& material) {
-    return material.isSolid && material.attenuationDistance < kNoAttenuation &&
+    const bool isTransmissive = material.transmission > 0.0f || material.diffuseTransmission > 0.0f;
+    return isTransmissive && material.isSolid && material.attenuationDistance < kNoAttenuation &&
            material.attenuationColor != glm::vec3(1.0f);
 }
 
