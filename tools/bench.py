@@ -23,11 +23,12 @@ import gltf_to_mitsuba
 
 ROOT = Path(__file__).resolve().parents[1]
 REFERENCES = ROOT / "tests/references"
-SCENES = ["cornell-box", "cornell-glass", "many-lights", "veach-mis"]  # those with a reference
-# Their smooth normals are read differently by each renderer, so that errors do not compare: for the cost of a path alone.
-COST_SCENES = ["dense-300000", "dense-3000000"]
+STORED_SCENES = ["cornell-box", "cornell-glass", "many-lights", "veach-mis"]  # those with a reference
+# Flat, because each renderer reads smooth normals in its own way, and errors would not compare.
+DENSE_SCENES = ["dense-300000-flat", "dense-3000000-flat"]
+SCENES = STORED_SCENES + DENSE_SCENES
 DENSE_SIZE = (256, 256)  # of scenes without a stored reference
-REFERENCE_SAMPLES = 256  # of the reference that is then made, by Lavalight with another seed
+REFERENCE_SAMPLES = 512  # of the reference that is then made, by Lavalight with another seed
 RAY_SCENES = ["cornell-box", "dense-300000", "dense-3000000"]
 MOST_SAMPLES = 4096
 MAX_BOUNCES = 64  # of both, as the references
@@ -175,27 +176,29 @@ def bench_scene(scene, renderers, options):
         for renderer in list(unfinished):
             seconds, errors = zip(*runs[renderer.name])
             curves[renderer.name].append({"samples": samples, "seconds": statistics.median(seconds),
-                                          "fastest": min(seconds), "slowest": max(seconds),
-                                          "error": statistics.median(errors)})
-            if scene in COST_SCENES or curves[renderer.name][-1]["error"] <= NEAR_ENOUGH * options.target:
+                                          "error": statistics.median(errors), "runs": runs[renderer.name]})
+            if curves[renderer.name][-1]["error"] <= NEAR_ENOUGH * options.target:
                 unfinished.remove(renderer)
         samples *= 4
     return curves, int(np.prod(size))
 
 
+def times_to(target, curve):
+    """Of each repeat by itself."""
+    return [time_to(target, [p["runs"][repeat] for p in curve]) for repeat in range(len(curve[0]["runs"]))]
+
+
 def print_curves(scene, curves, pixels, options):
+    """Ratios are Lavalight's time over the other's, of runs that took turns: their median and their range."""
     print(f"\n{scene}: seconds to relMSE {options.target} ({options.repeats} runs each, alternated)")
-    if scene in COST_SCENES:
-        print("(shading normals are read differently by each: only the cost of a path compares)")
-    print(f"{'':28}{'seconds':>9}{'ratio':>7}{'ns a path':>11}{'spread':>13}{'error at 64':>13}")
-    base = None
+    print(f"{'':28}{'seconds':>9}{'ratio of ours':>15}{'range':>13}{'ns a path':>11}{'error at 64':>13}")
+    ours = times_to(options.target, next(iter(curves.values())))
     for name, curve in curves.items():
-        seconds = time_to(options.target, [(p["seconds"], p["error"]) for p in curve])
-        base = base or seconds
-        last = curve[-1]
-        cost = 1e9 * last["seconds"] / last["samples"] / pixels
-        print(f"{name:28}{seconds:9.2f}{seconds / base:7.2f}{cost:11.0f}"
-              f"{last['fastest'] / last['seconds']:7.2f}-{last['slowest'] / last['seconds']:.2f}{curve[0]['error']:13.4f}")
+        seconds = times_to(options.target, curve)
+        ratios = [a / b for a, b in zip(ours, seconds)]
+        cost = 1e9 * curve[-1]["seconds"] / curve[-1]["samples"] / pixels
+        print(f"{name:28}{statistics.median(seconds):9.2f}{statistics.median(ratios):15.2f}"
+              f"{min(ratios):7.2f}-{max(ratios):.2f}{cost:12.0f}{curve[0]['error']:13.4f}", flush=True)
 
 
 def bench_rays(options):
@@ -232,8 +235,7 @@ def parse_options():
     parser.add_argument("--lavalight", default="build/release/lavalight", help="the binary to measure")
     parser.add_argument("--exporter", default="build/release/export_scene", help="the program export_scene")
     parser.add_argument("--cycles", help="a Python that has bpy; without it, Cycles is left out")
-    parser.add_argument("--scenes", nargs="*", default=SCENES, choices=SCENES + COST_SCENES,
-                        help="for time to equal error; dense-N: for the cost of a path alone")
+    parser.add_argument("--scenes", nargs="*", default=SCENES, choices=SCENES, help="for time to equal error")
     parser.add_argument("--ray-scenes", nargs="*", default=RAY_SCENES, help="for rays per second")
     parser.add_argument("--variants", nargs="*", default=["llvm_ad_rgb", "scalar_rgb"], help="of Mitsuba")
     parser.add_argument("--wavefront", action="store_true", help="also --kernels wavefront")
@@ -264,7 +266,6 @@ def main():
     for scene in options.scenes:
         curves, pixels = bench_scene(scene, renderers, options)
         print_curves(scene, curves, pixels, options)
-        sys.stdout.flush()
         results[scene] = curves
     (options.out / "bench.json").write_text(json.dumps(
         {"threads": options.threads, "target": options.target, "repeats": options.repeats, "rays": rays,

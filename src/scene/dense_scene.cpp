@@ -31,9 +31,10 @@ float noise(glm::vec3 p, uint32_t seed) {
     return 2.0f * sum - 1.0f;
 }
 
-// A point of the unit circle for turn in [0, 1): a square's outline made round.
+// A point of the unit circle after so many turns, of which whole ones do not count: a square's outline made
+// round.
 glm::vec2 circle(float turn) {
-    const float s = 4.0f * turn;
+    const float s = 4.0f * (turn - std::floor(turn));
     const float f = s - std::floor(s);
     const glm::vec2 quarter = glm::normalize(glm::vec2(1.0f - f, f));
     switch (static_cast<int>(s)) {
