@@ -166,6 +166,26 @@ TEST_F(RenderRefusal, UnknownCameraIsToldTheCamerasThereAre) {
     expectRefusal({"--camera", "1"}, kWrongUsage, "0 \"camera\"");
 }
 
+TEST_F(RenderRefusal, CamerasThatCannotBe) {
+    const std::vector<std::string> good{"--look-from", "-1,2,3", "--look-at", "0,0,0"};
+    const auto with = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> all = good;
+        all.insert(all.end(), more.begin(), more.end());
+        return all;
+    };
+    expectRefusal({"--look-from", "1,2,3", "--look-at", "1,2,3"}, kWrongUsage, "--look-at");
+    expectRefusal({"--look-from", "1,2", "--look-at", "1,2,3"}, kWrongUsage, "--look-from");
+    expectRefusal({"--look-from", "1,2,3"}, kWrongUsage, "--look-at");
+    expectRefusal({"--look-at", "1,2,3"}, kWrongUsage, "--look-from");
+    expectRefusal(with({"--up", "0,0,0"}), kWrongUsage, "--up");
+    expectRefusal(with({"--camera", "0"}), kWrongUsage, "--camera");
+    for (const char* fov : {"0", "-10", "180", "nan"})
+        expectRefusal(with({"--fov", fov}), kWrongUsage, "--fov");
+    expectRefusal({"--aperture", "-0.1"}, kWrongUsage, "--aperture");
+    expectRefusal({"--aperture", "0.1", "--focus", "0"}, kWrongUsage, "--focus");
+    expectRefusal({"--aperture", "0.1", "--panorama"}, kWrongUsage, "--aperture");
+}
+
 TEST_F(RenderRefusal, EnvironmentMapsThatAreNone) {
     write("text.hdr", "This is a text.\n");
     write("text.exr", "This is a text.\n");
