@@ -30,6 +30,9 @@ vec3 evalBase(Surface s, vec3 wo, vec3 wi) {
         return value;
     if (wi.z > 0.0 && hasSpecular(s))
         value += evalSpecular(s.specular, wo, wi);
+    if (wi.z > 0.0 && hasMultiple(s))
+        value += evalMultipleScattering(s.multiple, wi, maskingLoss(s, wo), maskingLoss(s, wi),
+                                        averageMaskingLoss(s.specular.alpha));
     if (hasGlass(s))
         value += s.glassShare * evalGlass(s.glass, wo, wi);
     return value;

@@ -34,6 +34,20 @@ float uncovered(Surface s, vec3 w) {
     return max(0.0, 1.0 - dot(s.coating, specularAlbedoTerms(w.z, alphaTowards(s, w))));
 }
 
+float sumOf(vec2 v) {
+    return v.x + v.y;
+}
+
+// What a single reflection from white facets loses; of the metal's multiple scattering.
+float maskingLoss(Surface s, vec3 w) {
+    return max(0.0, 1.0 - sumOf(specularAlbedoTerms(w.z, alphaTowards(s, w))));
+}
+
+// At least: an anisotropic lobe loses more than one of its smaller alpha.
+float averageMaskingLoss(vec2 alpha) {
+    return 1.0 - sumOf(specularAlbedoAverage(alpha.x));
+}
+
 // Share of light that the dielectric coating lets through to the diffuse base, (1 - E(wo)) (1 - E(wi)) / (1 - Eavg): the
 // base then reflects exactly (1 - E(wo)) * diffuse, or less under an anisotropic coating, whose average is that of its larger
 // alpha at least. Kelemen, Szirmay-Kalos 2001.
@@ -90,6 +104,8 @@ LobeAlbedos baseAlbedos(Surface s, vec3 wo) {
     const float rest = max(0.0, 1.0 - dot(s.coating, terms));
     a.diffuse *= rest;
     a.through *= rest;
+    if (hasMultiple(s))
+        a.diffuse += s.multiple * maskingLoss(s, wo);
     a.specular = s.specular.f0 * terms.x + s.specular.f90 * terms.y;
     if (sceneHas(kFeatureIridescence) && s.specular.film.weight > 0.0)
         a.specular = specularFresnel(s.specular, wo.z) * (terms.x + terms.y);

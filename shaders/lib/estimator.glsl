@@ -8,3 +8,4 @@ layout(constant_id = CONSTANT_MIS) const uint kMis = kMisPower;
 layout(constant_id = CONSTANT_ROULETTE) const uint kRoulette = kRouletteThroughput;
 layout(constant_id = CONSTANT_MIS_SURVIVAL) const uint kMisSurvival = 0u;
 layout(constant_id = CONSTANT_FRESNEL) const uint kFresnel = kFresnelExact;
+layout(constant_id = CONSTANT_MULTIPLE_SCATTERING) const uint kMultipleScattering = 0u;

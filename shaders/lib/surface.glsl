@@ -6,6 +6,7 @@
 #include "lib/bsdf_clearcoat.glsl"
 #include "lib/bsdf_diffuse_transmission.glsl"
 #include "lib/bsdf_glass.glsl"
+#include "lib/bsdf_multiple_scattering.glsl"
 #include "lib/bsdf_sheen.glsl"
 #include "lib/bsdf_specular.glsl"
 #include "lib/features.glsl"
@@ -14,6 +15,7 @@ struct Surface {
     vec3 diffuse; // albedo of the opaque base
     vec3 through; // albedo of its transmission
     Specular specular;
+    vec3 multiple; // colour of what metal reflects more than once, weighted
     vec2 coating;     // f0 and f90 (largest channel) of what covers the diffuse base
     float glassShare; // weight of the glass lobe
     Glass glass;
@@ -23,6 +25,10 @@ struct Surface {
 
 bool hasSpecular(Surface s) {
     return sceneHas(kFeatureSpecular) && (s.specular.f90 > 0.0 || s.specular.f0 != vec3(0.0));
+}
+
+bool hasMultiple(Surface s) {
+    return sceneHas(kFeatureSpecular) && kMultipleScattering != 0u && s.multiple != vec3(0.0);
 }
 
 bool hasGlass(Surface s) {

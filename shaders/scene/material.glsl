@@ -92,6 +92,10 @@ Surface surfaceOf(MaterialRecord material, bool isFront) {
     s.specular.f90 = opaque * material.specular + material.metallic;
     s.specular.alpha = alphaOf(material);
     s.specular.film = filmOf(material);
+    s.multiple = vec3(0.0);
+    if (sceneHas(kFeatureSpecular) && kMultipleScattering != 0u && !isSmooth(s))
+        s.multiple = material.metallic *
+                     multipleScatteringColor(material.baseColor, averageMaskingLoss(s.specular.alpha));
     s.coating = coatingOf(material, dielectricF0, s.specular);
     s.glassShare = dielectric * material.transmission;
     s.glass = glassOf(material, isFront);

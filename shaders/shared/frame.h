@@ -39,6 +39,7 @@ struct FrameParameters {
 #define CONSTANT_FRESNEL 6
 #define CONSTANT_FEATURES 7 // of the scene, not of the estimator (lib/features.glsl)
 #define CONSTANT_COUNT_VISITS 8 // of traversal (scene/traverse.glsl)
+#define CONSTANT_MULTIPLE_SCATTERING 9
 
 // Values of those constants; the C++ enumerations use the same numbers.
 SHARED_CONST uint kSamplerSobol = 0u;

@@ -159,6 +159,8 @@ void RenderOptions::declareEstimator(CLI::App& parser) {
     addNamed(parser, "--mis", e.mis, "Weights of light and BSDF samples");
     addSwitch(parser, "--mis-survival", e.misSurvival, "MIS weights count the probability of survival");
     addNamed(parser, "--fresnel", e.fresnel, "Reflectance of glass: exact, or Schlick's approximation");
+    addSwitch(parser, "--multiple-scattering", e.multipleScattering,
+              "Rough metal returns what its facets send on to each other, which glTF's model loses");
     parser
         .add_option("--max-bounces", e.maxBounces,
                     "Scattering vertices of a path; 0: emission only, 1: direct light")
@@ -220,6 +222,7 @@ RenderSettings RenderOptions::settings() const {
     take("--mis", &EstimatorSettings::mis);
     take("--mis-survival", &EstimatorSettings::misSurvival);
     take("--fresnel", &EstimatorSettings::fresnel);
+    take("--multiple-scattering", &EstimatorSettings::multipleScattering);
     take("--max-bounces", &EstimatorSettings::maxBounces);
     take("--roulette", &EstimatorSettings::roulette);
     take("--roulette-start", &EstimatorSettings::rouletteStart);

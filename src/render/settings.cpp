@@ -74,6 +74,7 @@ std::vector<std::pair<std::string, std::string>> describe(const RenderSettings& 
     add("roulette-probability", e.rouletteProbability);
     add("mis-survival", e.misSurvival ? "on" : "off");
     add("fresnel", nameOf(e.fresnel));
+    add("multiple-scattering", e.multipleScattering ? "on" : "off");
     add("max-bounces", e.maxBounces);
     add("clamp-indirect", std::isinf(e.clampIndirect) ? "off" : fmt::format("{}", e.clampIndirect));
     add("seed", e.seed);

@@ -49,6 +49,7 @@ struct EstimatorSettings {
     float rouletteProbability = 0.5f; // of survival, for Roulette::constant
     bool misSurvival = false; // the BSDF pdf of MIS weights is multiplied by the probability of survival
     Fresnel fresnel = Fresnel::exact; // of glass; opaque layers use Schlick's as glTF prescribes
+    bool multipleScattering = false;  // rough metal returns what its facets send on to each other
     uint32_t maxBounces = 64;         // scattering vertices; 0 shows emission only
     float clampIndirect =
         std::numeric_limits<float>::infinity(); // biased: largest channel of an indirect contribution

@@ -60,7 +60,7 @@ class AlbedoTableTest : public DeviceTest {
 TEST_F(AlbedoTableTest, EntriesAreTheIntegralOfTheLobe) {
     const glm::vec3 error = largestErrors(0.0f);
     EXPECT_LT(std::max(error.x, error.y), 8e-4f); // the lattice of 1597 points that fills the table
-    EXPECT_LT(error.z, 2e-3f); // of up to twice the values
+    EXPECT_LT(error.z, 2e-3f);                    // of up to twice the values
 }
 
 TEST_F(AlbedoTableTest, InterpolationBetweenEntriesIsClose) {

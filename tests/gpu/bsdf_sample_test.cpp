@@ -2,12 +2,14 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 #include <vector>
 
 #include <fmt/format.h>
 #include <glm/glm.hpp>
 #include <gtest/gtest.h>
 
+#include "shared/frame.h"
 #include "support/chi_square.h"
 #include "support/run_kernel.h"
 #include "support/test_device.h"
@@ -118,8 +120,10 @@ class BsdfSampleTest : public DeviceTest {
   protected:
     // A runner of the named kernel over these materials.
     struct Bench {
-        Bench(gpu::Device& device, const std::vector<TestMaterial>& list, const char* kernel)
-            : materials(device, list), runner(device, test_kernels::find(kernel), materials.resources()) {}
+        Bench(gpu::Device& device, const std::vector<TestMaterial>& list, const char* kernel,
+              std::span<const gpu::SpecialisationConstant> constants = {})
+            : materials(device, list),
+              runner(device, test_kernels::find(kernel), materials.resources(), constants) {}
         MaterialBuffers materials;
         KernelRunner runner;
     };
@@ -141,6 +145,19 @@ class BsdfSampleTest : public DeviceTest {
         EXPECT_LE(sum, 1.003 * kSamples) << "the pdf integrates to more than one";
         return expected;
     }
+    void expectDensities(const std::vector<TestMaterial>& materials,
+                         std::span<const gpu::SpecialisationConstant> constants) {
+        Bench eval(device(), materials, "bsdf_test", constants);
+        Bench sample(device(), materials, "bsdf_sample_test", constants);
+        const BinPoints points = makeBinPoints();
+        for (uint32_t material = 0; material < materials.size(); ++material)
+            for (const float cosTheta : kCosines) {
+                SCOPED_TRACE(fmt::format("{}, cosine {}", materials[material].name, cosTheta));
+                const Push push{woAt(cosTheta), material};
+                const std::vector<double> expected = expectedCounts(eval.runner, points, push);
+                EXPECT_GT(chiSquare(countSamples(sample.runner, push), expected).pValue, kLeastPValue);
+            }
+    }
     static std::vector<uint32_t> countSamples(KernelRunner& sample, const Push& push) {
         std::vector<uint32_t> counts(kRings * kSectors + 1);
         for (const SampleAnswer& answer : sample.generate<SampleAnswer>(kSamples, push))
@@ -154,16 +171,14 @@ TEST_F(BsdfSampleTest, DirectionsHaveTheDensityThatThePdfSays) {
     const std::vector<TestMaterial> materials =
         joined({roughMaterials(), layeredMaterials(), tiltedCoats(), transmissiveMaterials(),
                 solidMaterials(), smoothLayers()});
-    Bench eval(device(), materials, "bsdf_test");
-    Bench sample(device(), materials, "bsdf_sample_test");
-    const BinPoints points = makeBinPoints();
-    for (uint32_t material = 0; material < materials.size(); ++material)
-        for (const float cosTheta : kCosines) {
-            SCOPED_TRACE(fmt::format("{}, cosine {}", materials[material].name, cosTheta));
-            const Push push{woAt(cosTheta), material};
-            const std::vector<double> expected = expectedCounts(eval.runner, points, push);
-            EXPECT_GT(chiSquare(countSamples(sample.runner, push), expected).pValue, kLeastPValue);
-        }
+    expectDensities(materials, {});
+}
+
+TEST_F(BsdfSampleTest, MultipleScatteringHasItsDensityToo) {
+    std::vector<TestMaterial> materials = joined({roughMaterials(), layeredMaterials()});
+    std::erase_if(materials, [](const TestMaterial& material) { return material.record.metallic == 0.0f; });
+    const std::vector<gpu::SpecialisationConstant> constants = {{CONSTANT_MULTIPLE_SCATTERING, 1}};
+    expectDensities(materials, constants);
 }
 
 TEST_F(BsdfSampleTest, WeightTimesPdfIsEval) {

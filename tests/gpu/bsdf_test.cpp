@@ -1,4 +1,5 @@
 // The BSDF is reciprocal, zero where it has to be, and pure Lambert where glTF asks for it.
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -6,6 +7,7 @@
 #include <glm/glm.hpp>
 #include <gtest/gtest.h>
 
+#include "shared/frame.h"
 #include "support/random_numbers.h"
 #include "support/run_kernel.h"
 #include "support/test_device.h"
@@ -32,14 +34,16 @@ struct Answer { // as in the kernel
 class BsdfTest : public DeviceTest {
   protected:
     std::vector<Answer> ask(const std::vector<TestMaterial>& materials,
-                            const std::vector<Question>& questions) {
+                            const std::vector<Question>& questions, bool multipleScattering = false) {
         const MaterialBuffers buffers(device(), materials);
-        KernelRunner runner(device(), test_kernels::find("bsdf_test"), buffers.resources());
+        const std::array<gpu::SpecialisationConstant, 1> constants = {
+            {{CONSTANT_MULTIPLE_SCATTERING, multipleScattering ? 1u : 0u}}};
+        KernelRunner runner(device(), test_kernels::find("bsdf_test"), buffers.resources(), constants);
         return runner.map<Answer>(questions);
     }
-    void expectReciprocity(const std::vector<TestMaterial>& materials,
-                           const std::vector<Question>& questions) {
-        const std::vector<Answer> answers = ask(materials, questions);
+    void expectReciprocity(const std::vector<TestMaterial>& materials, const std::vector<Question>& questions,
+                           bool multipleScattering = false) {
+        const std::vector<Answer> answers = ask(materials, questions, multipleScattering);
         for (size_t i = 0; i < questions.size(); ++i)
             for (glm::length_t c = 0; c < 3; ++c) {
                 const float forwards = answers[i].f[c] / std::abs(questions[i].wi.z);
@@ -71,6 +75,7 @@ TEST_F(BsdfTest, SwappedDirectionsReflectAlike) {
         materials.insert(materials.end(), list.begin(), list.end());
     const std::vector<Question> questions = randomPairs(materials.size(), 4096);
     expectReciprocity(materials, questions);
+    expectReciprocity(materials, questions, true);
 }
 
 TEST_F(BsdfTest, SwappedDirectionsTransmitAlike) {
