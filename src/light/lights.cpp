@@ -50,7 +50,8 @@ void addPunctuals(const Scene& scene, bool atInfinity, Lights& lights) {
     }
 }
 
-// Leaves no trace of an environment without power.
+// What is black leaves no trace. Around an empty scene, which it cannot light, an environment is seen all the
+// same.
 void addEnvironment(const Scene& scene, const glm::vec3& radiance, Lights& lights) {
     glm::dvec3 mean(radiance);
     if (scene.environmentMap && radiance != glm::vec3(0.0f)) {
@@ -59,12 +60,14 @@ void addEnvironment(const Scene& scene, const glm::vec3& radiance, Lights& light
     }
     const double power = environmentPower(glm::vec3(mean), scene.bounds);
     requireFinite(power, "the environment");
+    if (mean == glm::dvec3(0.0)) {
+        lights.environmentMap.reset();
+        return;
+    }
+    lights.environmentRadiance = radiance;
     if (power > 0.0) {
-        lights.environmentRadiance = radiance;
         lights.environment = static_cast<uint32_t>(lights.powers.size());
         lights.powers.push_back(power);
-    } else {
-        lights.environmentMap.reset();
     }
 }
 

@@ -81,16 +81,19 @@ uint32_t featuresOf(const Mesh& mesh) {
 
 uint32_t sceneFeatures(const Scene& scene, const Lights& lights) {
     uint32_t features = 0;
-    for (const Material& material : scene.materials)
-        features |= featuresOf(material);
-    for (const Mesh& mesh : scene.meshes)
+    std::vector<bool> isWorn(scene.materials.size(), false);
+    for (const Mesh& mesh : scene.meshes) {
         features |= featuresOf(mesh);
+        isWorn[mesh.material] = true;
+    }
+    for (size_t i = 0; i < scene.materials.size(); ++i)
+        features |= isWorn[i] ? featuresOf(scene.materials[i]) : 0u;
     const std::vector<bool> transparent = transparentMeshes(scene);
     features |=
         std::find(transparent.begin(), transparent.end(), true) != transparent.end() ? kFeatureAlpha : 0u;
     features |= lights.emitters.list.empty() ? 0u : kFeatureTriangleLights;
     features |= lights.punctuals.empty() ? 0u : kFeaturePunctualLights;
-    if (lights.environment)
+    if (lights.environmentRadiance != glm::vec3(0.0f))
         features |= lights.environmentMap ? kFeatureEnvironmentMap : kFeatureEnvironment;
     features |= lights.tree.nodes.empty() ? 0u : kFeatureLightTree;
     return features;

@@ -22,6 +22,7 @@ uint32_t featuresOf(const Scene& scene) {
 uint32_t featuresOf(const Material& material) {
     Scene scene;
     scene.materials = {lambert(), material};
+    scene.meshes.emplace_back().material = 1;
     return featuresOf(scene);
 }
 
