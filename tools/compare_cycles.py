@@ -9,8 +9,8 @@ import json
 import subprocess
 from pathlib import Path
 
-import addon_utils
 import bpy
+import addon_utils  # bpy has it, once it is imported itself
 import flip_evaluator
 import mathutils
 import numpy as np

@@ -69,7 +69,8 @@ void failOnValidation(const gpu::Device& device) {
                                 messages.front()));
 }
 
-Scene loadLit(const std::string& name, const ImportOptions& options, const RenderSettings& settings) {
+Scene loadLit(const std::string& name, ImportOptions options, const RenderSettings& settings) {
+    options.bringsLight = settings.environment.has_value() || !settings.environmentFile.empty();
     Scene scene = loadScene(name, options);
     readEnvironmentMap(settings, scene);
     return scene;

@@ -242,6 +242,11 @@ TEST(GltfMaterial, SceneWithoutLightGetsAWhiteEnvironmentAndAMessage) {
     const Scene lit = triangleOf({{"emissiveFactor", {0, 1, 0}}}).import();
     EXPECT_EQ(lit.environment, glm::vec3(0.0f));
     EXPECT_EQ(warningsWith(lit, "no light"), 0);
+    ImportOptions options;
+    options.bringsLight = true;
+    const Scene brought = importGltf("test.glb", triangleOf(Json::object()).glb(), options);
+    EXPECT_EQ(brought.environment, glm::vec3(0.0f));
+    EXPECT_EQ(warningsWith(brought, "no light"), 0);
 }
 
 TEST(GltfMaterial, LightOfAMaterialThatNothingWearsIsNoLight) {
