@@ -8,6 +8,7 @@
 
 #include "app/option_values.h"
 #include "base/error.h"
+#include "base/named.h"
 #include "scene/look_at.h"
 
 namespace lavalight {
@@ -16,16 +17,10 @@ namespace {
 const Camera& pickCamera(const Scene& scene, const std::string& wanted) {
     if (wanted.empty())
         return scene.cameras.front();
+    std::vector<std::string> names;
     for (const Camera& camera : scene.cameras)
-        if (camera.name == wanted)
-            return camera;
-    if (const auto index = parseNumber<size_t>(wanted); index && *index < scene.cameras.size())
-        return scene.cameras[*index];
-    std::string known;
-    for (size_t i = 0; i < scene.cameras.size(); ++i)
-        known += fmt::format("{}{} \"{}\"", i > 0 ? ", " : "", i, scene.cameras[i].name);
-    throw UsageError(
-        fmt::format("--camera: {} has no camera \"{}\"; it has {}", scene.source, wanted, known));
+        names.push_back(camera.name);
+    return scene.cameras[findNamed(names, {wanted, "--camera", "camera", scene.source})];
 }
 
 glm::vec3 vectorOf(const char* option, const std::string& text) {

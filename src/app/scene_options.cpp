@@ -13,7 +13,8 @@ SceneOptions::SceneOptions(CLI::App& parser) : parser_(&parser) {
         .add_option("--at", seconds_,
                     "Time of the animation; default: nothing is animated. Its first and last keys hold "
                     "before and after it")
-        ->type_name("SECONDS");
+        ->type_name("SECONDS")
+        ->default_str("");
     parser
         .add_option("--animation", options_.animation,
                     "Animation by name or index (see lavalight info); default: the first")

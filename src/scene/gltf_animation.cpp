@@ -2,10 +2,10 @@
 #include "scene/gltf_animation.h"
 
 #include <algorithm>
-#include <charconv>
 
 #include <fmt/format.h>
 
+#include "base/named.h"
 #include "scene/gltf_accessor.h"
 #include "scene/gltf_keyframes.h"
 
@@ -23,30 +23,17 @@ float lastKey(const GltfDocument& document, const tinygltf::Animation& animation
     return last;
 }
 
-std::optional<size_t> findAnimation(const std::vector<tinygltf::Animation>& animations,
-                                    const std::string& wanted) {
-    if (wanted.empty() && !animations.empty())
+// The first, unless another is wanted.
+size_t findAnimation(const GltfDocument& document, const std::string& wanted) {
+    const std::string source = printable(document.source);
+    if (document.model.animations.empty())
+        throw UsageError(fmt::format("{} has no animation that a time could be asked of", source));
+    if (wanted.empty())
         return 0;
-    for (size_t i = 0; i < animations.size(); ++i) {
-        if (!wanted.empty() && animations[i].name == wanted)
-            return i;
-    }
-    size_t index = 0;
-    const auto [end, error] = std::from_chars(wanted.data(), wanted.data() + wanted.size(), index);
-    const bool isIndex = !wanted.empty() && error == std::errc() && end == wanted.data() + wanted.size();
-    return isIndex && index < animations.size() ? std::optional(index) : std::nullopt;
-}
-
-[[noreturn]] void failUnknown(const GltfDocument& document, const std::string& wanted) {
-    const auto& animations = document.model.animations;
-    if (animations.empty())
-        throw UsageError(
-            fmt::format("{} has no animation that a time could be asked of", printable(document.source)));
-    std::string known;
-    for (size_t i = 0; i < animations.size(); ++i)
-        known += fmt::format("{}{} \"{}\"", i > 0 ? ", " : "", i, printable(animations[i].name));
-    throw UsageError(fmt::format("{} has no animation \"{}\"; it has {}", printable(document.source),
-                                 printable(wanted), known));
+    std::vector<std::string> names;
+    for (const tinygltf::Animation& animation : document.model.animations)
+        names.push_back(printable(animation.name));
+    return findNamed(names, {wanted, "--animation", "animation", source});
 }
 
 void applyChannel(const Keyframes& keys, const std::string& path, double seconds, NodePose& node) {
@@ -75,11 +62,9 @@ std::vector<Animation> listAnimations(const GltfDocument& document) {
 Pose poseAt(const GltfDocument& document, const ImportOptions& options) {
     if (!options.seconds)
         return {};
-    const std::optional<size_t> index = findAnimation(document.model.animations, options.animation);
-    if (!index)
-        failUnknown(document, options.animation);
-    const tinygltf::Animation& animation = document.model.animations[*index];
-    const std::string name = describe("animation", *index, animation.name);
+    const size_t index = findAnimation(document, options.animation);
+    const tinygltf::Animation& animation = document.model.animations[index];
+    const std::string name = describe("animation", index, animation.name);
     Pose pose(document.model.nodes.size());
     for (const tinygltf::AnimationChannel& channel : animation.channels) {
         const std::string& path = channel.target_path;

@@ -1,14 +1,9 @@
 // Material variants.
 #include "scene/gltf_variants.h"
 
-#include <algorithm>
-#include <charconv>
-
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "base/error.h"
+#include "base/named.h"
 #include "scene/gltf_notes.h"
 
 namespace lavalight {
@@ -33,17 +28,7 @@ std::optional<int> findVariant(const std::vector<std::string>& variants, const s
                                const std::string& source) {
     if (wanted.empty())
         return std::nullopt;
-    const auto found = std::find(variants.begin(), variants.end(), wanted);
-    if (found != variants.end())
-        return static_cast<int>(found - variants.begin());
-    size_t number = 0;
-    const auto [end, error] = std::from_chars(wanted.data(), wanted.data() + wanted.size(), number);
-    if (error == std::errc() && end == wanted.data() + wanted.size() && number < variants.size())
-        return static_cast<int>(number);
-    if (variants.empty())
-        throw UsageError(fmt::format("--variant: {} has no variants", source));
-    throw UsageError(fmt::format("--variant: {} has no variant \"{}\"; it has {}", source, wanted,
-                                 fmt::join(variants, ", ")));
+    return static_cast<int>(findNamed(variants, {wanted, "--variant", "variant", source}));
 }
 
 int materialOf(const tinygltf::Primitive& primitive, std::optional<int> variant) {

@@ -131,7 +131,7 @@ TEST(GltfAnimation, IsFoundByNameOrIndexAndUnknownOnesGetTheList) {
     const Moving moving = sliding("LINEAR");
     EXPECT_EQ(usageError(moving, "move"), "");
     EXPECT_EQ(usageError(moving, "0"), "");
-    EXPECT_EQ(usageError(moving, "1"), "test.glb has no animation \"1\"; it has 0 \"move\"");
+    EXPECT_EQ(usageError(moving, "1"), "--animation: test.glb has no animation \"1\"; it has 0 \"move\"");
     Moving still = sliding("LINEAR");
     still.builder.json.erase("animations");
     EXPECT_EQ(usageError(still, ""), "test.glb has no animation that a time could be asked of");

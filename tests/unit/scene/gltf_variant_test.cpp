@@ -42,7 +42,8 @@ TEST(GltfVariant, UnknownOneIsWrongUsageAndNamesTheOthers) {
         static_cast<void>(materialAs("dusk"));
         FAIL() << "accepted";
     } catch (const UsageError& error) {
-        EXPECT_NE(std::string(error.what()).find("has no variant \"dusk\"; it has night, gala, plain"),
+        EXPECT_NE(std::string(error.what())
+                      .find("has no variant \"dusk\"; it has 0 \"night\", 1 \"gala\", 2 \"plain\""),
                   std::string::npos)
             << error.what();
     }
