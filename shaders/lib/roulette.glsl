@@ -17,10 +17,12 @@ float survivalByAlbedo(uint kind, float constantProbability, vec3 albedo) {
     return 1.0;
 }
 
-// The kind that goes by what the path carries: `throughput` after the next direction is drawn, without the scaling by
-// eta^2 that radiance undergoes inside glass.
+// The kinds that go by what the path carries: `throughput` after the next direction is drawn, without the scaling by
+// eta^2 that radiance undergoes inside glass. Its square root, as Cycles takes it, kills less: a path that dies early
+// costs more in variance than it saves (docs/performance.md).
 float survivalByThroughput(uint kind, vec3 throughput) {
-    if (kind != kRouletteThroughput)
+    if (kind != kRouletteThroughput && kind != kRouletteSqrtThroughput)
         return 1.0;
-    return min(max(throughput.x, max(throughput.y, throughput.z)), kMaxSurvival);
+    const float largest = max(throughput.x, max(throughput.y, throughput.z));
+    return min(kind == kRouletteThroughput ? largest : sqrt(largest), kMaxSurvival);
 }

@@ -66,6 +66,7 @@ SHARED_CONST uint kRouletteOff = 1u;
 SHARED_CONST uint kRouletteConstant = 2u;
 SHARED_CONST uint kRouletteMeanAlbedo = 3u;
 SHARED_CONST uint kRouletteMaxAlbedo = 4u;
+SHARED_CONST uint kRouletteSqrtThroughput = 5u;
 SHARED_CONST uint kFresnelExact = 0u;
 SHARED_CONST uint kFresnelSchlick = 1u;
 

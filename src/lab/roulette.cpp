@@ -53,11 +53,12 @@ Table box(gpu::Device& device, const LabOptions& options) {
         const char* name;
         Roulette roulette;
     };
-    constexpr std::array<Kind, 5> kinds{{{"off (64 bounces)", Roulette::off},
+    constexpr std::array<Kind, 6> kinds{{{"off (64 bounces)", Roulette::off},
                                          {"constant 50 %", Roulette::constant},
                                          {"mean-albedo", Roulette::meanAlbedo},
                                          {"max-albedo", Roulette::maxAlbedo},
-                                         {"throughput", Roulette::throughput}}};
+                                         {"throughput", Roulette::throughput},
+                                         {"sqrt-throughput", Roulette::sqrtThroughput}}};
     const RenderBench bench(device, "cornell-box", kImageHeight);
     RenderTable rows(bench, static_cast<uint32_t>(options.samples));
     EstimatorSettings estimator = independentSettings(options.seed);

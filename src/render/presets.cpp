@@ -57,7 +57,8 @@ constexpr std::array<Preset, 6> kPresets{{
     {"mis", "as nee, with --mis power", "light and BSDF samples combined by Veach's power heuristic", mis()},
     {"roulette", "as mis, with --roulette throughput",
      "paths that carry little are ended at random, without bias", roulette()},
-    {"reference", "all defaults: as roulette, with --sampler sobol --light-selection auto",
+    {"reference",
+     "all defaults: as roulette, with --sampler sobol --light-selection auto --roulette sqrt-throughput",
      "the best this program knows", EstimatorSettings{}},
 }};
 

@@ -15,7 +15,8 @@ constexpr std::array<SettingName<LightSelection>, 4> kLightSelections{{{"auto", 
                                                                        {"tree", LightSelection::tree}}};
 constexpr std::array<SettingName<Mis>, 3> kMisKinds{
     {{"power", Mis::power}, {"balance", Mis::balance}, {"off", Mis::off}}};
-constexpr std::array<SettingName<Roulette>, 5> kRoulettes{{{"throughput", Roulette::throughput},
+constexpr std::array<SettingName<Roulette>, 6> kRoulettes{{{"sqrt-throughput", Roulette::sqrtThroughput},
+                                                           {"throughput", Roulette::throughput},
                                                            {"off", Roulette::off},
                                                            {"constant", Roulette::constant},
                                                            {"mean-albedo", Roulette::meanAlbedo},

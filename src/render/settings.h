@@ -26,6 +26,7 @@ enum class Roulette : uint32_t {
     constant = kRouletteConstant,
     meanAlbedo = kRouletteMeanAlbedo,
     maxAlbedo = kRouletteMaxAlbedo,
+    sqrtThroughput = kRouletteSqrtThroughput,
 };
 enum class Fresnel : uint32_t { exact = kFresnelExact, schlick = kFresnelSchlick };
 
@@ -44,7 +45,7 @@ struct EstimatorSettings {
     bool nextEventEstimation = true;            // off: light is found only by hitting it
     LightSelection lightSelection = LightSelection::automatic;
     Mis mis = Mis::power; // off, with NEE on: emission found by BSDF rays counts at camera and delta vertices
-    Roulette roulette = Roulette::throughput;
+    Roulette roulette = Roulette::sqrtThroughput;
     uint32_t rouletteStart = 3;       // first vertex where a path may die; the camera's first hit is vertex 1
     float rouletteProbability = 0.5f; // of survival, for Roulette::constant
     bool misSurvival = false; // the BSDF pdf of MIS weights is multiplied by the probability of survival

@@ -32,11 +32,18 @@ TEST_F(RouletteTest, ThroughputGoesByTheLargestChannel) {
     EXPECT_EQ(survival({0.0f, 0.0f, 0.01f}, kRouletteThroughput), glm::vec2(1.0f, 0.01f));
 }
 
+TEST_F(RouletteTest, SqrtThroughputGoesByTheRootOfTheLargestChannel) {
+    EXPECT_EQ(survival({0.1f, 0.25f, 0.2f}, kRouletteSqrtThroughput).x, 1.0f);
+    EXPECT_NEAR(survival({0.1f, 0.25f, 0.2f}, kRouletteSqrtThroughput).y, 0.5f, 1e-6f);
+    EXPECT_NEAR(survival({0.0f, 0.0f, 0.01f}, kRouletteSqrtThroughput).y, 0.1f, 1e-6f);
+}
+
 TEST_F(RouletteTest, SomePathsDieHoweverMuchTheyCarry) {
-    for (const float throughput : {0.99f, 1.0f, 50.0f}) {
-        EXPECT_LT(survival(glm::vec3(throughput), kRouletteThroughput).y, 1.0f);
-        EXPECT_GE(survival(glm::vec3(throughput), kRouletteThroughput).y, 0.9f);
-    }
+    for (const uint32_t kind : {kRouletteThroughput, kRouletteSqrtThroughput})
+        for (const float throughput : {0.99f, 1.0f, 50.0f}) {
+            EXPECT_LT(survival(glm::vec3(throughput), kind).y, 1.0f);
+            EXPECT_GE(survival(glm::vec3(throughput), kind).y, 0.9f);
+        }
 }
 
 TEST_F(RouletteTest, ConstantIsTheSettingsProbability) {

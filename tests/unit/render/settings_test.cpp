@@ -73,7 +73,7 @@ TEST(Settings, WhatIsOutOfRangeIsRefusedByItsOptionsName) {
 TEST(Settings, MisSurvivalNeedsARouletteThatDoesNotKnowTheDirection) {
     RenderSettings settings = goodSettings();
     settings.estimator.misSurvival = true;
-    for (const Roulette roulette : {Roulette::throughput, Roulette::off}) {
+    for (const Roulette roulette : {Roulette::sqrtThroughput, Roulette::throughput, Roulette::off}) {
         settings.estimator.roulette = roulette;
         EXPECT_TRUE(complaint(settings).starts_with("--mis-survival")) << complaint(settings);
     }
