@@ -9,3 +9,4 @@ layout(constant_id = CONSTANT_ROULETTE) const uint kRoulette = kRouletteSqrtThro
 layout(constant_id = CONSTANT_MIS_SURVIVAL) const uint kMisSurvival = 0u;
 layout(constant_id = CONSTANT_FRESNEL) const uint kFresnel = kFresnelExact;
 layout(constant_id = CONSTANT_MULTIPLE_SCATTERING) const uint kMultipleScattering = 0u;
+layout(constant_id = CONSTANT_TEXTURE_FILTER) const uint kTextureFilter = kTextureFilterBilinear;

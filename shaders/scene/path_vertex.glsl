@@ -146,7 +146,8 @@ NextRays scatter(Hit hit, Ray ray, uint slot, uint bounce, inout Path path) {
     MaterialRecord material = fetchMaterial(surface.material);
     if (sceneHas(kFeatureAttenuation) && !surface.isFront && isTransmissiveSolid(material))
         path.throughput *= exp(-material.attenuation * hit.t); // Beer-Lambert: the ray came through the inside
-    material = texturedMaterial(material, -ray.direction, surface);
+    const SampleKey key = keyOfSlot(slot, bounce + 1u);
+    material = texturedMaterial(material, -ray.direction, key, surface);
 
     // ---- Emission ----
     if (sceneHas(kFeatureUnlit) && (material.flags & kMaterialUnlit) != 0u) {
@@ -160,7 +161,6 @@ NextRays scatter(Hit hit, Ray ray, uint slot, uint bounce, inout Path path) {
     next.isCut = bounce >= frame.maxBounces;
     if (next.isCut)
         return next;
-    const SampleKey key = keyOfSlot(slot, bounce + 1u);
     if (sceneHas(kFeatureDispersion) && isDispersive(material))
         chooseChannel(sample1D(key, kDimensionChannel), path, material);
     const Vertex vertex = makeVertex(surface, material, -ray.direction, key);

@@ -1,4 +1,5 @@
 // Textures: pictures in one buffer of words, and their value at a point of a triangle.
+#include "lib/estimator.glsl"
 #include "lib/texture_filter.glsl"
 #include "shared/bindings.h"
 #include "shared/texture.h"
@@ -40,12 +41,29 @@ vec4 filteredTexture(TextureRecord t, vec2 uv) {
     return mix(above, below, f.share.y);
 }
 
-// The texture at a point of a triangle; barycentrics b.
-vec4 textureAt(uint index, uint triangle, vec3 b) {
-    const TextureRecord t = fetchTexture(index);
+// One of the four texels, with the probability of its share; u uniform in [0, 1)^2.
+vec4 drawnTexture(TextureRecord t, vec2 uv, vec2 u) {
+    const TexelFootprint f = texelFootprint(uv, uvec2(t.width, t.height), t.flags);
+    return fetchPictureTexel(t, mix(f.first, f.second, lessThan(u, f.share)));
+}
+
+// Where a point of a triangle lies in the texture; barycentrics b.
+vec2 textureCoordinates(TextureRecord t, uint triangle, vec3 b) {
     const TriangleUvs corners = fetchTriangleUvs(triangle * t.uvTexels + t.uvTexel);
     const vec3 uv = vec3(b.x * corners.uv0 + b.y * corners.uv1 + b.z * corners.uv2, 1.0);
-    return filteredTexture(t, vec2(dot(t.uRow, uv), dot(t.vRow, uv)));
+    return vec2(dot(t.uRow, uv), dot(t.vRow, uv));
+}
+
+vec4 textureAt(uint index, uint triangle, vec3 b) {
+    const TextureRecord t = fetchTexture(index);
+    return filteredTexture(t, textureCoordinates(t, triangle, b));
+}
+
+// As the estimator's settings ask: bilinear, or one texel of it.
+vec4 textureAt(uint index, uint triangle, vec3 b, vec2 u) {
+    const TextureRecord t = fetchTexture(index);
+    const vec2 uv = textureCoordinates(t, triangle, b);
+    return kTextureFilter == kTextureFilterStochastic ? drawnTexture(t, uv, u) : filteredTexture(t, uv);
 }
 
 // Where a slot's texture lies, if textureSlots says that there is one.

@@ -2,6 +2,7 @@
 // Based on: glTF 2.0, section 3.9, and the extensions that name the slots, for the channels that each reads.
 #include "lib/features.glsl"
 #include "lib/normal_map.glsl"
+#include "lib/sampler.glsl"
 #include "scene/interaction.glsl"
 #include "scene/material_record.glsl"
 #include "scene/texture.glsl"
@@ -61,14 +62,16 @@ void applyFrameTexel(uint slot, vec4 texel, vec3 wo, inout MaterialRecord m, ino
 
 // The material's members at the point, with textures and vertex colours multiplied in; iridescenceThicknessMaximum
 // becomes the thickness there. Normals of the interaction follow normal maps. One turn of the loop for each texture
-// that there is: lavapipe executes both sides of an `if`, and only loops skip work.
-MaterialRecord texturedMaterial(MaterialRecord m, vec3 wo, inout Interaction i) {
+// that there is: lavapipe executes both sides of an `if`, and only loops skip work. All textures draw their texel by the
+// same numbers, so that where they are of one size the material is that of one texel.
+MaterialRecord texturedMaterial(MaterialRecord m, vec3 wo, SampleKey key, inout Interaction i) {
     if (sceneHas(kFeatureVertexColors))
         m.baseColor *= vertexColor(i.triangle, i.b).rgb;
+    const vec2 u = kTextureFilter == kTextureFilterStochastic ? sample2D(key, kDimensionTexel) : vec2(0.0);
     uint index = m.firstTexture;
     for (uint slots = sceneHas(kFeatureTextures) ? m.textureSlots : 0u; slots != 0u; slots &= slots - 1u) {
         const uint slot = uint(findLSB(slots));
-        const vec4 texel = textureAt(index, i.triangle, i.b);
+        const vec4 texel = textureAt(index, i.triangle, i.b, u);
         applyBaseTexel(slot, texel, m);
         applyLayerTexel(slot, texel, m);
         if (sceneHas(kFeatureTangents))

@@ -48,6 +48,7 @@ struct FrameParameters {
 #define CONSTANT_FEATURES 7 // of the scene, not of the estimator (lib/features.glsl)
 #define CONSTANT_COUNT_VISITS 8 // of traversal (scene/traverse.glsl)
 #define CONSTANT_MULTIPLE_SCATTERING 9
+#define CONSTANT_TEXTURE_FILTER 10
 
 SHARED_CONST uint kProjectionPerspective = 0u;
 SHARED_CONST uint kProjectionOrthographic = 1u;
@@ -69,6 +70,8 @@ SHARED_CONST uint kRouletteMaxAlbedo = 4u;
 SHARED_CONST uint kRouletteSqrtThroughput = 5u;
 SHARED_CONST uint kFresnelExact = 0u;
 SHARED_CONST uint kFresnelSchlick = 1u;
+SHARED_CONST uint kTextureFilterBilinear = 0u;
+SHARED_CONST uint kTextureFilterStochastic = 1u;
 
 LAVALIGHT_SHARED_END
 

@@ -122,6 +122,8 @@ void RenderOptions::declareEstimator(CLI::App& parser) {
     addNamed(parser, "--fresnel", e.fresnel, "Reflectance of glass: exact, or Schlick's approximation");
     addSwitch(parser, "--multiple-scattering", e.multipleScattering,
               "Rough metal returns what its facets send on to each other, which glTF's model loses");
+    addNamed(parser, "--texture-filter", e.textureFilter,
+             "Textures between texels: bilinear, or one of the four texels, drawn by its share");
     parser
         .add_option("--max-bounces", e.maxBounces,
                     "Scattering vertices of a path; 0: emission only, 1: direct light")
@@ -184,6 +186,7 @@ RenderSettings RenderOptions::settings() const {
     take("--mis-survival", &EstimatorSettings::misSurvival);
     take("--fresnel", &EstimatorSettings::fresnel);
     take("--multiple-scattering", &EstimatorSettings::multipleScattering);
+    take("--texture-filter", &EstimatorSettings::textureFilter);
     take("--max-bounces", &EstimatorSettings::maxBounces);
     take("--roulette", &EstimatorSettings::roulette);
     take("--roulette-start", &EstimatorSettings::rouletteStart);

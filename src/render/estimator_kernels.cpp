@@ -22,6 +22,7 @@ std::vector<gpu::SpecialisationConstant> estimatorConstants(const EstimatorSetti
             {CONSTANT_MIS_SURVIVAL, settings.misSurvival ? 1u : 0u},
             {CONSTANT_FRESNEL, static_cast<uint32_t>(settings.fresnel)},
             {CONSTANT_MULTIPLE_SCATTERING, settings.multipleScattering ? 1u : 0u},
+            {CONSTANT_TEXTURE_FILTER, static_cast<uint32_t>(settings.textureFilter)},
             {CONSTANT_FEATURES, features}};
 }
 

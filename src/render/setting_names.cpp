@@ -25,6 +25,8 @@ constexpr std::array<SettingName<Kernels>, 3> kKernels{
     {{"auto", Kernels::automatic}, {"fused", Kernels::fused}, {"wavefront", Kernels::wavefront}}};
 constexpr std::array<SettingName<Fresnel>, 2> kFresnels{
     {{"exact", Fresnel::exact}, {"schlick", Fresnel::schlick}}};
+constexpr std::array<SettingName<TextureFilter>, 2> kTextureFilters{
+    {{"bilinear", TextureFilter::bilinear}, {"stochastic", TextureFilter::stochastic}}};
 
 } // namespace
 
@@ -52,7 +54,10 @@ template <>
 std::span<const SettingName<Fresnel>> settingNames() {
     return kFresnels;
 }
-
+template <>
+std::span<const SettingName<TextureFilter>> settingNames() {
+    return kTextureFilters;
+}
 template <>
 std::span<const SettingName<Kernels>> settingNames() {
     return kKernels;

@@ -32,6 +32,8 @@ std::span<const SettingName<Roulette>> settingNames();
 template <>
 std::span<const SettingName<Fresnel>> settingNames();
 template <>
+std::span<const SettingName<TextureFilter>> settingNames();
+template <>
 std::span<const SettingName<Kernels>> settingNames();
 
 template <typename Value>

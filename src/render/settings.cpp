@@ -79,6 +79,7 @@ std::vector<std::pair<std::string, std::string>> describe(const RenderSettings& 
     add("mis-survival", e.misSurvival ? "on" : "off");
     add("fresnel", nameOf(e.fresnel));
     add("multiple-scattering", e.multipleScattering ? "on" : "off");
+    add("texture-filter", nameOf(e.textureFilter));
     add("max-bounces", e.maxBounces);
     add("clamp-indirect", std::isinf(e.clampIndirect) ? "off" : fmt::format("{}", e.clampIndirect));
     add("seed", e.seed);

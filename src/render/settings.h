@@ -29,6 +29,10 @@ enum class Roulette : uint32_t {
     sqrtThroughput = kRouletteSqrtThroughput,
 };
 enum class Fresnel : uint32_t { exact = kFresnelExact, schlick = kFresnelSchlick };
+enum class TextureFilter : uint32_t {
+    bilinear = kTextureFilterBilinear,
+    stochastic = kTextureFilterStochastic
+};
 
 // How kernels cut up the work of a path. Their code is the same; bits may differ where a driver rounds
 // otherwise.
@@ -51,7 +55,9 @@ struct EstimatorSettings {
     bool misSurvival = false; // the BSDF pdf of MIS weights is multiplied by the probability of survival
     Fresnel fresnel = Fresnel::exact; // of glass; opaque layers use Schlick's as glTF prescribes
     bool multipleScattering = false;  // rough metal returns what its facets send on to each other
-    uint32_t maxBounces = 64;         // scattering vertices; 0 shows emission only
+    TextureFilter textureFilter =
+        TextureFilter::bilinear; // stochastic: one texel of four, shaded and then averaged
+    uint32_t maxBounces = 64;    // scattering vertices; 0 shows emission only
     float clampIndirect =
         std::numeric_limits<float>::infinity(); // biased: largest channel of an indirect contribution
     uint32_t seed = 0;

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "support/estimator_variants.h"
+#include "support/mean_test.h"
 #include "support/pictures.h"
 #include "support/render_scene.h"
 #include "support/scene_builder.h"
@@ -24,6 +25,13 @@ Scene rectangleUnderTheSky(const Material& material) {
         .build();
 }
 
+double totalVariance(const Rendering& rendering) {
+    double sum = 0.0;
+    for (const glm::vec3& variance : rendering.variance.pixels)
+        sum += variance.r + variance.g + variance.b;
+    return sum;
+}
+
 class SurfaceDetail : public DeviceTest {};
 
 TEST_F(SurfaceDetail, BaseColourIsFactorTimesTextureTimesVertexColour) {
@@ -35,6 +43,29 @@ TEST_F(SurfaceDetail, BaseColourIsFactorTimesTextureTimesVertexColour) {
     for (uint32_t x = 0; x < 8; ++x) {
         const glm::vec3 expected = x < 4 ? glm::vec3(0.5f, 0.2f, 0.0f) : glm::vec3(0.1f, 1.0f, 0.2f);
         EXPECT_LT(glm::length(result.rendering.radiance.pixels[x] - expected), 3e-5f) << x; // 16-bit colours
+    }
+}
+
+// Where radiance is linear in the texture, one texel drawn by its share has the mean of all four.
+TEST_F(SurfaceDetail, DrawnTexelsHaveTheMeanOfBilinearOnes) {
+    Scene scene = rectangleUnderTheSky(lambert(glm::vec3(1.0f)));
+    scene.pictures = {noisePicture(5, 3, false, 1)};
+    Texture texture = textureOf(0);
+    texture.isNearest = false;
+    texture.isSrgb = true;
+    putOnRectangle(scene, 0, TextureSlot::baseColor, texture);
+    for (const Sampler sampler : {Sampler::independent, Sampler::sobol}) {
+        RenderSettings settings = imageSettings(16, 16, 4096);
+        settings.estimator.sampler = sampler;
+        const Rendering bilinear = renderScene(device(), scene, settings).rendering;
+        settings.estimator.textureFilter = TextureFilter::stochastic;
+        settings.estimator.seed = 1;
+        const Rendering drawn = renderScene(device(), scene, settings).rendering;
+        const MeanComparison comparison = compareMeans(drawn, bilinear);
+        EXPECT_GT(comparison.share, 0.9) << comparison.text();
+        EXPECT_LT(comparison.visibleBias, 0.003) << comparison.text();
+        EXPECT_TRUE(comparison.same()) << comparison.text();
+        EXPECT_GT(totalVariance(drawn), 2.0 * totalVariance(bilinear)); // or nothing was drawn
     }
 }
 
@@ -192,7 +223,8 @@ Scene texturedLamps() {
 TEST_F(SurfaceDetail, LightsAreFoundAlikeBySamplingAndByHittingUnderTexturedLamps) {
     std::vector<Variant> variants = singleVariants();
     std::erase_if(variants, [](const Variant& v) {
-        return v.settings.roulette != Roulette::throughput || v.settings.hemisphere != Hemisphere::cosine;
+        return v.settings.roulette != EstimatorSettings{}.roulette ||
+               v.settings.hemisphere != Hemisphere::cosine;
     });
     expectOneMean(device(), texturedLamps(), variants, 512, 0.3);
 }
