@@ -1,11 +1,11 @@
-# Writes the bytes of FILES into OUT as `std::span<const EmbeddedFile> NAMESPACE::files()` (base/embedded_file.h).
+# Writes the bytes of FILES, named by their paths below ROOT, into OUT as `std::span<const EmbeddedFile> NAMESPACE::files()` (base/embedded_file.h).
 set(body "")
 set(table "")
 set(index 0)
 foreach(file ${FILES})
     file(READ ${file} hex HEX)
     string(REGEX REPLACE "([0-9a-f][0-9a-f])" "0x\\1," bytes "${hex}")
-    get_filename_component(name ${file} NAME)
+    file(RELATIVE_PATH name ${ROOT} ${file})
     string(APPEND body "const unsigned char file${index}[] = {${bytes}};\n")
     string(APPEND table "    {\"${name}\", {reinterpret_cast<const char*>(file${index}), sizeof file${index}}},\n")
     math(EXPR index "${index} + 1")

@@ -17,14 +17,14 @@ function(lavalight_library name)
     target_link_libraries(lavalight_${name} PUBLIC lavalight_options ${ARG_DEPS} PRIVATE ${ARG_PRIVATE_DEPS})
 endfunction()
 
-# lavalight_embed_files(LIB NAMESPACE ns FILES f...): each file's bytes, found by embedded_files.h.
+# lavalight_embed_files(LIB NAMESPACE ns ROOT dir FILES f...): each file's bytes, named by its path below ROOT, found by
+# base/embedded_file.h. Paths are absolute.
 function(lavalight_embed_files lib)
-    cmake_parse_arguments(ARG "" "NAMESPACE" "FILES" ${ARGN})
+    cmake_parse_arguments(ARG "" "NAMESPACE;ROOT" "FILES" ${ARGN})
     set(out ${CMAKE_BINARY_DIR}/generated/${ARG_NAMESPACE}_files.cpp)
     set(inputs ${ARG_FILES})
-    list(TRANSFORM inputs PREPEND ${CMAKE_SOURCE_DIR}/)
     add_custom_command(OUTPUT ${out}
-        COMMAND ${CMAKE_COMMAND} -DOUT=${out} -DNAMESPACE=${ARG_NAMESPACE} "-DFILES=${inputs}"
+        COMMAND ${CMAKE_COMMAND} -DOUT=${out} -DNAMESPACE=${ARG_NAMESPACE} -DROOT=${ARG_ROOT} "-DFILES=${inputs}"
                 -P ${CMAKE_SOURCE_DIR}/cmake/embed_files.cmake
         DEPENDS ${inputs} ${CMAKE_SOURCE_DIR}/cmake/embed_files.cmake VERBATIM)
     target_sources(lavalight_${lib} PRIVATE ${out})

@@ -19,6 +19,7 @@
 #include "app/devices_command.h"
 #include "app/info_command.h"
 #include "app/lab_command.h"
+#include "app/new_experiment_command.h"
 #include "app/presets_command.h"
 #include "app/render_command.h"
 #include "base/error.h"
@@ -79,6 +80,7 @@ int parseAndRun(int argc, char** argv) {
         std::make_unique<RenderCommand>(app),
         std::make_unique<PresetsCommand>(app),
         std::make_unique<LabCommand>(app),
+        std::make_unique<NewExperimentCommand>(app),
         std::make_unique<InfoCommand>(app),
         std::make_unique<DevicesCommand>(app),
         std::make_unique<CompareCommand>(app),

@@ -4,6 +4,7 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -17,6 +18,7 @@
 #include "app/progress.h"
 #include "base/error.h"
 #include "base/file.h"
+#include "base/file_watch.h"
 #include "base/log.h"
 #include "base/process_time.h"
 #include "image/exr.h"
@@ -76,27 +78,7 @@ Scene loadLit(const std::string& name, ImportOptions options, const RenderSettin
     return scene;
 }
 
-struct RenderRun {
-    StopReason stop = StopReason::samples;
-    std::optional<double>
-        toFirstSamples; // seconds from the start of the process to the end of the first wave
-};
-
-RenderRun renderInterruptibly(Renderer& renderer, const InterruptGuard& guard, bool showProgress) {
-    ProgressBar progress(showProgress);
-    RenderRun run;
-    run.stop = renderer.render([&](double fraction) {
-        if (!run.toFirstSamples)
-            run.toFirstSamples = secondsSinceProcessStart();
-        progress.show(fraction);
-        return !guard.interrupted();
-    });
-    return run;
-}
-
-void fillInputs(RenderReport& report, const Scene& scene, const Camera& camera,
-                const RenderSettings& settings) {
-    report.camera = camera.name;
+void fillInputs(RenderReport& report, const Scene& scene, const RenderSettings& settings) {
     report.settings = settings;
     report.scene = scene.source;
     report.triangles = scene.triangleCount();
@@ -126,13 +108,14 @@ void printSummary(const RenderReport& report) {
         report.samples / (uint64_t{report.settings.width} * report.settings.height), report.renderSeconds,
         report.device.name, static_cast<double>(report.samples) / report.renderSeconds * 1e-6,
         static_cast<double>(report.rays.total()) / report.renderSeconds * 1e-6, ledgerText(report.ledger));
+    std::fflush(stdout); // who watches wants to know now
 }
 
 } // namespace
 
 RenderCommand::RenderCommand(CLI::App& app)
     : Command(app, "render", "Render a scene to an image"), options_(parser()), sceneOptions_(parser()),
-      sequence_(parser()) {
+      sequence_(parser()), shaders_(parser()) {
     parser()
         .add_option("scene", scene_,
                     "Built-in scene (" + fmt::format("{}", fmt::join(builtinNames(), ", ")) +
@@ -152,6 +135,7 @@ RenderCommand::RenderCommand(CLI::App& app)
 // What lasts from one frame to the next: kernels are compiled again only where a frame's features differ.
 struct RenderCommand::Session {
     RenderSettings settings;
+    KernelSource source = embeddedKernel;
     std::optional<gpu::Device> device{};
     std::optional<EstimatorKernels> kernels{};
     std::optional<Camera> standIn{}; // of the first frame: its scene moves, the picture must not
@@ -173,11 +157,26 @@ struct RenderCommand::Session {
     // The kernels of the frame before serve, if they do.
     [[nodiscard]] std::unique_ptr<Renderer> makeRenderer(const Scene& scene, const Camera& camera) {
         if (!kernels)
-            return std::make_unique<Renderer>(*device, scene, camera, settings);
+            return std::make_unique<Renderer>(*device, scene, camera, settings, source);
         EstimatorKernels earlier = std::move(*kernels);
         kernels.reset();
-        return std::make_unique<Renderer>(*device, scene, camera, settings, std::move(earlier));
+        return std::make_unique<Renderer>(*device, scene, camera, settings, std::move(earlier), source);
     }
+
+    // Shaders as they are now, for the kernels to come and for the record.
+    void use(const ShaderOverlay& overlay) {
+        settings.changedShaders = overlay.changed();
+        source = [overlay](std::string_view name) { return overlay.kernel(name); };
+    }
+};
+
+struct RenderCommand::Take {
+    Scene scene;
+    std::unique_ptr<Renderer> renderer{};
+    RenderReport report{};
+    Stopwatch watch{};
+    std::optional<double>
+        toFirstSamples{}; // seconds from the start of the process to the end of the first wave
 };
 
 void RenderCommand::requireOutputs(const Outputs& outputs) const {
@@ -207,10 +206,15 @@ int RenderCommand::run() {
     if (outputs_.exr.empty() && outputs_.png.empty())
         outputs_.exr = std::filesystem::path(scene_).stem().string() + ".exr";
     Session session{options_.settings()};
+    if (const auto overlay = shaders_.overlay())
+        session.use(*overlay);
+    if (sequence_.isAsked() && shaders_.isWatching())
+        throw UsageError("--watch renders one image over and over, --frames several: give one of them");
     if (sequence_.isAsked())
         return runSequence(session);
     requireOutputs(outputs_);
-    return renderMoment(outputs_, sceneOptions_.importOptions(), session);
+    return shaders_.isWatching() ? runWatching(session)
+                                 : renderMoment(outputs_, sceneOptions_.importOptions(), session);
 }
 
 int RenderCommand::runSequence(Session& session) const {
@@ -226,41 +230,84 @@ int RenderCommand::runSequence(Session& session) const {
     return 0;
 }
 
-int RenderCommand::renderMoment(const Outputs& files, const ImportOptions& moment, Session& session) const {
-    RenderReport report;
-    Stopwatch watch;
-    report.import = moment;
-    const Scene scene = loadLit(scene_, moment, session.settings);
-    const Camera camera = session.view(scene, options_);
-    watch.lap("load");
+// Until Ctrl-C. A save ends a render that is under way; one that does not compile leaves the last image.
+int RenderCommand::runWatching(Session& session) const {
+    FileWatch saves(shaders_.folder());
+    Take take = prepare(sceneOptions_.importOptions(), session);
+    const InterruptGuard guard;
+    while (!guard.interrupted()) {
+        std::vector<std::string> changes;
+        takeSamples(take, [&] {
+            changes = saves.wait(std::chrono::milliseconds(0));
+            return changes.empty() && !guard.interrupted();
+        });
+        if (changes.empty())
+            write(take, outputs_, session);
+        while (!guard.interrupted()) {
+            if (!changes.empty() && shaders_.reload(changes, *take.renderer)) {
+                session.use(*shaders_.overlay());
+                break;
+            }
+            changes = saves.wait(std::chrono::hours(1));
+        }
+        take.watch = Stopwatch();
+    }
+    return kInterrupted;
+}
+
+RenderCommand::Take RenderCommand::prepare(const ImportOptions& moment, Session& session) const {
+    Take take{loadLit(scene_, moment, session.settings)};
+    take.report.import = moment;
+    const Camera camera = session.view(take.scene, options_);
+    take.report.camera = camera.name;
+    take.watch.lap("load");
     if (!session.device)
         session.device.emplace(options_.device());
-    watch.lap("device");
-    const std::unique_ptr<Renderer> renderer = session.makeRenderer(scene, camera);
-    watch.lap("prepare");
+    take.watch.lap("device");
+    take.renderer = session.makeRenderer(take.scene, camera);
+    take.watch.lap("prepare");
+    return take;
+}
 
-    const InterruptGuard guard; // until all files are written: Ctrl-C loses no image
-    const RenderRun run = renderInterruptibly(*renderer, guard, !quiet_);
-    report.stop = run.stop;
-    report.renderSeconds = watch.lap("render");
+void RenderCommand::takeSamples(Take& take, const std::function<bool()>& mayGoOn) const {
+    ProgressBar progress(!quiet_);
+    take.report.stop = take.renderer->render([&](double fraction) {
+        if (!take.toFirstSamples)
+            take.toFirstSamples = secondsSinceProcessStart();
+        progress.show(fraction);
+        return mayGoOn();
+    });
+    take.report.renderSeconds = take.watch.lap("render");
+}
+
+void RenderCommand::write(Take& take, const Outputs& files, Session& session) const {
     failOnValidation(*session.device);
-    fillInputs(report, scene, camera, renderer->settings());
-    const Rendering rendering = renderer->rendering();
-    fillResults(report, *renderer, *session.device, rendering);
-    report.ledger = makeLedger(scene, session.settings, report.tallies, report.stop);
+    RenderReport& report = take.report;
+    fillInputs(report, take.scene, take.renderer->settings());
+    report.settings.changedShaders = session.settings.changedShaders;
+    const Rendering rendering = take.renderer->rendering();
+    fillResults(report, *take.renderer, *session.device, rendering);
+    report.ledger = makeLedger(take.scene, report.settings, report.tallies, report.stop);
     writeImages(files, rendering, report);
-    watch.lap("write");
-    report.stages = watch.stages();
-    report.stages.emplace_back("prepareBvh", renderer->scene().bvhSeconds());
-    report.stages.emplace_back("prepareKernels", renderer->kernels().seconds());
-    if (run.toFirstSamples)
-        report.stages.emplace_back("processToFirstSamples", *run.toFirstSamples);
+    take.watch.lap("write");
+    report.stages = take.watch.stages();
+    report.stages.emplace_back("prepareBvh", take.renderer->scene().bvhSeconds());
+    report.stages.emplace_back("prepareKernels", take.renderer->kernels().seconds());
+    if (take.toFirstSamples)
+        report.stages.emplace_back("processToFirstSamples", *take.toFirstSamples);
     if (!files.report.empty())
         writeFileAtomically(files.report, reportJson(report));
     if (!quiet_)
         printSummary(report);
-    session.kernels = renderer->releaseKernels();
-    return report.stop == StopReason::interrupted ? kInterrupted : 0;
+}
+
+int RenderCommand::renderMoment(const Outputs& files, const ImportOptions& moment, Session& session) const {
+    Take take = prepare(moment, session);
+    const InterruptGuard guard; // until all files are written: Ctrl-C loses no image
+    takeSamples(take, [&] { return !guard.interrupted(); });
+    write(take, files, session);
+    session.kernels = take.renderer->releaseKernels();
+    return take.report.stop == StopReason::interrupted ? kInterrupted : 0;
 }
 
 } // namespace lavalight

@@ -1,12 +1,14 @@
 // `lavalight render`: a scene in, an image out.
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "app/command.h"
 #include "app/frame_sequence.h"
 #include "app/render_options.h"
 #include "app/scene_options.h"
+#include "app/shader_options.h"
 #include "image/image.h"
 #include "render/report.h"
 
@@ -26,15 +28,21 @@ class RenderCommand : public Command {
         std::string report;
     };
     struct Session; // what the frames of a sequence share
+    struct Take;    // one image in the making
 
     void requireOutputs(const Outputs& files) const;
     void writeImages(const Outputs& files, const Rendering& rendering, const RenderReport& report) const;
     [[nodiscard]] int runSequence(Session& session) const;
+    [[nodiscard]] int runWatching(Session& session) const;
+    [[nodiscard]] Take prepare(const ImportOptions& moment, Session& session) const;
+    void takeSamples(Take& take, const std::function<bool()>& mayGoOn) const;
+    void write(Take& take, const Outputs& files, Session& session) const;
     [[nodiscard]] int renderMoment(const Outputs& files, const ImportOptions& moment, Session& session) const;
 
     RenderOptions options_;
     SceneOptions sceneOptions_;
     FrameSequence sequence_;
+    ShaderOptions shaders_;
     std::string scene_ = "cornell-box";
     Outputs outputs_;
     float exposure_ = 0.0f;

@@ -7,7 +7,7 @@
 namespace lavalight {
 
 struct EmbeddedFile {
-    std::string_view name; // file name without folder
+    std::string_view name; // path below the folder that the build says
     std::string_view bytes;
 };
 

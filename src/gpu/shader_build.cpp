@@ -16,29 +16,28 @@
 namespace lavalight::gpu {
 namespace {
 
-// Resolves includes against one root. A file asked for twice comes back empty the second time: include guards
-// for free.
-class RootIncluder : public glslang::TShader::Includer {
+// A file asked for twice comes back empty the second time: include guards for free.
+class OnceIncluder : public glslang::TShader::Includer {
   public:
-    explicit RootIncluder(std::filesystem::path root) : root_(std::move(root)) {}
+    explicit OnceIncluder(const ShaderFiles& files) : files_(files) {}
 
-    IncludeResult* includeLocal(const char* name, const char*, size_t) override {
-        const std::filesystem::path path = root_ / name;
-        if (!std::filesystem::is_regular_file(path))
+    IncludeResult* includeLocal(const char* path, const char*, size_t) override {
+        std::optional<ShaderText> file = files_(path);
+        if (!file)
             return nullptr;
-        auto& text = texts_.emplace_back(std::make_unique<std::string>());
-        if (seen_.insert(path.lexically_normal().string()).second)
-            *text = readFile(path);
+        if (!seen_.insert(std::filesystem::path(path).lexically_normal().string()).second)
+            file->text.clear();
+        const auto& kept = texts_.emplace_back(std::make_unique<ShaderText>(std::move(*file)));
         auto& result = results_.emplace_back(
-            std::make_unique<IncludeResult>(path.string(), text->data(), text->size(), nullptr));
+            std::make_unique<IncludeResult>(kept->name, kept->text.data(), kept->text.size(), nullptr));
         return result.get();
     }
     void releaseInclude(IncludeResult*) override {} // owned by results_
 
   private:
-    std::filesystem::path root_;
+    const ShaderFiles& files_;
     std::set<std::string> seen_;
-    std::vector<std::unique_ptr<std::string>> texts_;
+    std::vector<std::unique_ptr<ShaderText>> texts_;
     std::vector<std::unique_ptr<IncludeResult>> results_;
 };
 
@@ -91,13 +90,11 @@ void rejectClashes(const KernelCode& code) {
 
 } // namespace
 
-KernelCode compileKernel(const std::filesystem::path& file, const std::filesystem::path& includeRoot) {
+KernelCode compileKernel(const ShaderText& source, const ShaderFiles& includes) {
     initialiseGlslang();
-    const std::string source = readFile(file);
-    const std::string fileName = file.string();
-    const char* text = source.c_str();
-    const int length = static_cast<int>(source.size());
-    const char* name = fileName.c_str();
+    const char* text = source.text.c_str();
+    const int length = static_cast<int>(source.text.size());
+    const char* name = source.name.c_str();
 
     glslang::TShader shader(EShLangCompute);
     shader.setStringsWithLengthsAndNames(&text, &length, &name, 1);
@@ -106,19 +103,19 @@ KernelCode compileKernel(const std::filesystem::path& file, const std::filesyste
     shader.setEnvClient(glslang::EShClientVulkan, glslang::EShTargetVulkan_1_2);
     shader.setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_5);
     const auto messages = static_cast<EShMessages>(EShMsgSpvRules | EShMsgVulkanRules);
-    RootIncluder includer(includeRoot);
+    OnceIncluder includer(includes);
     const int defaultVersion = 460;
     if (!shader.parse(GetDefaultResources(), defaultVersion, false, messages, includer))
-        throw Error(fmt::format("cannot compile {}:\n{}", fileName, shader.getInfoLog()));
+        throw Error(fmt::format("cannot compile {}:\n{}", source.name, shader.getInfoLog()));
 
     glslang::TProgram program;
     program.addShader(&shader);
     if (!program.link(messages) ||
         !program.buildReflection(EShReflectionSeparateBuffers | EShReflectionAllBlockVariables))
-        throw Error(fmt::format("cannot link {}:\n{}", fileName, program.getInfoLog()));
+        throw Error(fmt::format("cannot link {}:\n{}", source.name, program.getInfoLog()));
 
     KernelCode code;
-    code.name = file.stem().string();
+    code.name = std::filesystem::path(source.name).stem().string();
     code.bindings = reflectBindings(program);
     code.pushConstantBytes = reflectPushConstantBytes(program);
     rejectClashes(code);
@@ -126,6 +123,15 @@ KernelCode compileKernel(const std::filesystem::path& file, const std::filesyste
     options.validate = false; // the validation layer checks every module in the device tests
     glslang::GlslangToSpv(*program.getIntermediate(EShLangCompute), code.spirv, &options);
     return code;
+}
+
+KernelCode compileKernel(const std::filesystem::path& file, const std::filesystem::path& includeRoot) {
+    return compileKernel({file.string(), readFile(file)}, [&](const std::string& path) {
+        const std::filesystem::path included = includeRoot / path;
+        return std::filesystem::is_regular_file(included)
+                   ? std::optional<ShaderText>({included.string(), readFile(included)})
+                   : std::nullopt;
+    });
 }
 
 } // namespace lavalight::gpu

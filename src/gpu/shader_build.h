@@ -4,6 +4,8 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,9 +29,21 @@ struct KernelCode {
     uint32_t pushConstantBytes = 0;
 };
 
-// Compiles the entry point in `file` (GLSL 4.60, SPIR-V 1.5 for Vulkan 1.2). #include "a/b.glsl" is resolved
-// in `includeRoot` alone, so that a file is found by the same name from everywhere; each file is included
-// once. Throws Error with the compiler's message, file names and line numbers.
+// The text of a shader file, and the name that the compiler's messages give it.
+struct ShaderText {
+    std::string name;
+    std::string text;
+};
+
+// Finds shader files by their path below shaders/, such as "lib/mis.glsl".
+using ShaderFiles = std::function<std::optional<ShaderText>(const std::string& path)>;
+
+// Compiles an entry point (GLSL 4.60, SPIR-V 1.5 for Vulkan 1.2). #include "a/b.glsl" asks `includes`, so that
+// a file is found by the same name from everywhere; each file is included once. Throws Error with the
+// compiler's message, file names and line numbers.
+[[nodiscard]] KernelCode compileKernel(const ShaderText& source, const ShaderFiles& includes);
+
+// The same for files of a folder: the entry point, and the root of all that it includes.
 [[nodiscard]] KernelCode compileKernel(const std::filesystem::path& file,
                                        const std::filesystem::path& includeRoot);
 

@@ -1,21 +1,21 @@
 #include "render/albedo_table.h"
 
 #include <array>
+#include <utility>
 
 #include "gpu/commands.h"
 #include "gpu/kernel.h"
-#include "kernels.h"
 #include "shared/scene.h"
 
 namespace lavalight {
 
-gpu::Buffer makeAlbedoTable(gpu::Device& device) {
+AlbedoTable makeAlbedoTable(gpu::Device& device, gpu::KernelCode code) {
     constexpr uint64_t bytes = uint64_t{kAlbedoRoughnesses} * kAlbedoRow * 16;
     const gpu::Buffer computed(device, "albedo table (computed)", bytes, gpu::BufferUse::storage);
     gpu::Buffer table(device, "albedo table", bytes, gpu::BufferUse::texels);
     gpu::ResourceTable resources;
     resources.set("AlbedoOut", computed);
-    const gpu::Kernel kernel(device, kernels::find("albedo"));
+    const gpu::Kernel kernel(device, std::move(code));
     const gpu::BoundKernel albedo(device, kernel, resources);
     gpu::Commands commands(device);
     commands.begin();
@@ -23,7 +23,7 @@ gpu::Buffer makeAlbedoTable(gpu::Device& device) {
         commands.dispatch(albedo, kAlbedoRoughnesses, std::as_bytes(std::span(&isAverage, 1)));
     commands.copy(computed, table, bytes);
     commands.submitAndWait();
-    return table;
+    return {std::move(table), kernel.code().spirv};
 }
 
 } // namespace lavalight

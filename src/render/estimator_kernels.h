@@ -1,8 +1,7 @@
-// Kernels of the estimator: where their code comes from, and the constants that specialise them.
+// Kernels of the estimator, and the constants that specialise them.
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <map>
 #include <string>
 #include <string_view>
@@ -10,15 +9,10 @@
 #include <vector>
 
 #include "gpu/kernel.h"
+#include "render/kernel_source.h"
 #include "render/settings.h"
 
 namespace lavalight {
-
-// Where compiled kernels come from, by name.
-using KernelSource = std::function<gpu::KernelCode(std::string_view name)>;
-
-// Those that the build compiled.
-[[nodiscard]] gpu::KernelCode embeddedKernel(std::string_view name);
 
 // For lib/estimator.glsl and lib/features.glsl; `features`: of the scene, kFeature... bits. Kernels ignore
 // constants that they do not declare.
@@ -31,6 +25,11 @@ class EstimatorKernels {
     // `kernels` must not be automatic; `frame` is what they will be run with.
     EstimatorKernels(gpu::Device& device, Kernels kernels, const EstimatorSettings& settings,
                      uint32_t features, const FrameParameters& frame, const KernelSource& source);
+
+    // Compiles those anew whose code `source` changes, and returns their names; what was bound to them must
+    // be bound anew. Throws Error as `source` does, with every kernel as it was.
+    std::vector<std::string> reload(gpu::Device& device, const FrameParameters& frame,
+                                    const KernelSource& source);
 
     // The kernel must be one of that way.
     [[nodiscard]] const gpu::Kernel& operator[](std::string_view name) const;

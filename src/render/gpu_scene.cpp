@@ -6,10 +6,10 @@ namespace lavalight {
 namespace {
 
 // Lambert surfaces never look into the table, whose kernel takes a quarter of a second to compile and run.
-gpu::Buffer albedoTableFor(gpu::Device& device, uint32_t features) {
+AlbedoTable albedoTableFor(gpu::Device& device, uint32_t features, const KernelSource& source) {
     if ((features & (kFeatureSpecular | kFeatureGlass | kFeatureClearcoat | kFeatureSheen)) != 0)
-        return makeAlbedoTable(device);
-    return {device, "albedo table", 0, gpu::BufferUse::texels};
+        return makeAlbedoTable(device, source("albedo"));
+    return {{device, "albedo table", 0, gpu::BufferUse::texels}, {}};
 }
 
 template <typename T>
@@ -22,7 +22,7 @@ gpu::Buffer uploadTexels(gpu::Device& device, const char* name, const std::vecto
 
 } // namespace
 
-GpuScene::GpuScene(gpu::Device& device, const SceneData& data)
+GpuScene::GpuScene(gpu::Device& device, const SceneData& data, const KernelSource& source)
     : bvhSeconds_(data.bvh.buildSeconds), nodes_(uploadTexels(device, "BVH nodes", data.bvh.nodes)),
       leafTriangles_(uploadTexels(device, "leaf triangles", data.leafTriangles)),
       normals_(uploadTexels(device, "triangle normals", data.normals)),
@@ -37,7 +37,7 @@ GpuScene::GpuScene(gpu::Device& device, const SceneData& data)
       tangents_(uploadTexels(device, "tangents", data.tangents)),
       environmentMap_(uploadTexels(device, "environment map", data.environmentMap)),
       environmentQuads_(uploadTexels(device, "environment quads", data.environmentQuads)),
-      albedoTable_(albedoTableFor(device, data.features)) {}
+      albedoTable_(albedoTableFor(device, data.features, source)) {}
 
 void GpuScene::addTo(gpu::ResourceTable& resources) const {
     resources.set("bvhNodes", nodes_);
@@ -54,14 +54,14 @@ void GpuScene::addTo(gpu::ResourceTable& resources) const {
     resources.set("triangleTangents", tangents_);
     resources.set("environmentMap", environmentMap_);
     resources.set("environmentQuads", environmentQuads_);
-    resources.set("albedoTable", albedoTable_);
+    resources.set("albedoTable", albedoTable_.buffer);
 }
 
 uint64_t GpuScene::bytes() const {
     return nodes_.bytes() + leafTriangles_.bytes() + normals_.bytes() + materials_.bytes() + lights_.bytes() +
            punctuals_.bytes() + lightTree_.bytes() + pictures_.bytes() + textures_.bytes() + uvs_.bytes() +
            colors_.bytes() + tangents_.bytes() + environmentMap_.bytes() + environmentQuads_.bytes() +
-           albedoTable_.bytes();
+           albedoTable_.buffer.bytes();
 }
 
 } // namespace lavalight

@@ -3,9 +3,12 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 
 #include "gpu/buffer.h"
 #include "gpu/kernel.h"
+#include "render/albedo_table.h"
+#include "render/kernel_source.h"
 #include "render/scene_data.h"
 
 namespace lavalight {
@@ -13,10 +16,14 @@ namespace lavalight {
 class GpuScene {
   public:
     // Uploads. Throws Error where a limit of the device is exceeded.
-    GpuScene(gpu::Device& device, const SceneData& data);
+    GpuScene(gpu::Device& device, const SceneData& data, const KernelSource& source = embeddedKernel);
 
     // Puts the buffers into `resources` under the names of the kernels.
     void addTo(gpu::ResourceTable& resources) const;
+
+    [[nodiscard]] const AlbedoTable& albedoTable() const { return albedoTable_; }
+    // Kernels that were bound to the old one must be bound anew.
+    void setAlbedoTable(AlbedoTable table) { albedoTable_ = std::move(table); }
 
     [[nodiscard]] double bvhSeconds() const { return bvhSeconds_; }
     [[nodiscard]] uint64_t bytes() const;
@@ -37,7 +44,7 @@ class GpuScene {
     gpu::Buffer tangents_;
     gpu::Buffer environmentMap_;
     gpu::Buffer environmentQuads_;
-    gpu::Buffer albedoTable_;
+    AlbedoTable albedoTable_;
 };
 
 } // namespace lavalight

@@ -11,6 +11,8 @@ std::vector<LedgerEntry> makeLedger(const Scene& scene, const RenderSettings& se
                                     const FilmTallies& tallies, StopReason stop) {
     std::vector<LedgerEntry> ledger;
     const EstimatorSettings& estimator = settings.estimator;
+    if (!settings.changedShaders.empty())
+        ledger.push_back({"changed-shaders", fmt::format("{}", fmt::join(settings.changedShaders, ", "))});
     if (std::isfinite(estimator.clampIndirect))
         ledger.push_back(
             {"clamp-indirect", fmt::format("indirect light was limited to {}", estimator.clampIndirect)});

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <future>
+#include <optional>
 #include <utility>
 
 #include "render/scene_features.h"
@@ -125,37 +126,59 @@ struct Renderer::Setup {
 
 Renderer::Renderer(gpu::Device& device, const Scene& scene, const Camera& camera,
                    const RenderSettings& wanted, const KernelSource& source)
-    : Renderer(device, resolveKernels(wanted, device.description().isCpu),
-               [&](const RenderSettings& settings) {
-                   return Setup::make(
-                       scene, camera, settings, [&](uint32_t features, const FrameParameters& frame) {
-                           return EstimatorKernels(device, settings.kernels, settings.estimator, features,
-                                                   frame, source);
-                       });
-               }) {}
+    : Renderer(
+          device, resolveKernels(wanted, device.description().isCpu),
+          [&](const RenderSettings& settings) {
+              return Setup::make(scene, camera, settings,
+                                 [&](uint32_t features, const FrameParameters& frame) {
+                                     return EstimatorKernels(device, settings.kernels, settings.estimator,
+                                                             features, frame, source);
+                                 });
+          },
+          source) {}
 
 Renderer::Renderer(gpu::Device& device, const Scene& scene, const Camera& camera,
-                   const RenderSettings& wanted, EstimatorKernels earlier)
-    : Renderer(device, resolveKernels(wanted, device.description().isCpu),
-               [&](const RenderSettings& settings) {
-                   return Setup::make(
-                       scene, camera, settings, [&](uint32_t features, const FrameParameters& frame) {
-                           if (earlier.serve(settings.kernels, settings.estimator, features))
-                               return std::move(earlier);
-                           return EstimatorKernels(device, settings.kernels, settings.estimator, features,
-                                                   frame, embeddedKernel);
-                       });
-               }) {}
+                   const RenderSettings& wanted, EstimatorKernels earlier, const KernelSource& source)
+    : Renderer(
+          device, resolveKernels(wanted, device.description().isCpu),
+          [&](const RenderSettings& settings) {
+              return Setup::make(scene, camera, settings,
+                                 [&](uint32_t features, const FrameParameters& frame) {
+                                     if (earlier.serve(settings.kernels, settings.estimator, features))
+                                         return std::move(earlier);
+                                     return EstimatorKernels(device, settings.kernels, settings.estimator,
+                                                             features, frame, source);
+                                 });
+          },
+          source) {}
 
 Renderer::Renderer(gpu::Device& device, const RenderSettings& settings,
-                   const std::function<Setup(const RenderSettings&)>& setUp)
-    : Renderer(device, settings, setUp(settings)) {}
+                   const std::function<Setup(const RenderSettings&)>& setUp, const KernelSource& source)
+    : Renderer(device, settings, setUp(settings), source) {}
 
-Renderer::Renderer(gpu::Device& device, const RenderSettings& settings, Setup setup)
-    : settings_(settings), kernels_(std::move(setup.kernels)), scene_(device, setup.scene),
-      film_(device, settings.width, settings.height, settings.bandRows),
-      waves_(makeWaveRenderer(device, settings_.kernels, {scene_, film_, setup.frame, kernels_})) {
+Renderer::Renderer(gpu::Device& device, const RenderSettings& settings, Setup setup,
+                   const KernelSource& source)
+    : device_(&device), settings_(settings), frame_(setup.frame), kernels_(std::move(setup.kernels)),
+      scene_(device, setup.scene, source), film_(device, settings.width, settings.height, settings.bandRows),
+      waves_(makeWaveRenderer(device, settings_.kernels, {scene_, film_, frame_, kernels_})) {
     settings_.estimator.lightSelection = setup.lightSelection;
+}
+
+std::vector<std::string> Renderer::reloadKernels(const KernelSource& source) {
+    std::optional<AlbedoTable> table;
+    if (!scene_.albedoTable().spirv.empty())
+        if (gpu::KernelCode code = source("albedo"); code.spirv != scene_.albedoTable().spirv)
+            table = makeAlbedoTable(*device_, std::move(code));
+    std::vector<std::string> names = kernels_.reload(*device_, frame_, source);
+    if (table) {
+        names.emplace_back("albedo");
+        scene_.setAlbedoTable(std::move(*table));
+    }
+    film_.clear();
+    pathsDone_ = 0;
+    isOutOfTime_ = false;
+    waves_ = makeWaveRenderer(*device_, settings_.kernels, {scene_, film_, frame_, kernels_});
+    return names;
 }
 
 StopReason Renderer::render(const KeepGoing& keepGoing) {

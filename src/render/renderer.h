@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "gpu/commands.h"
 #include "gpu/device.h"
@@ -28,8 +29,9 @@ class Renderer {
     Renderer(gpu::Device& device, const Scene& scene, const Camera& camera, const RenderSettings& settings,
              const KernelSource& source = embeddedKernel);
     // The same with the kernels of an earlier renderer of that device, if they serve; else with new ones.
+    // Both have one source.
     Renderer(gpu::Device& device, const Scene& scene, const Camera& camera, const RenderSettings& settings,
-             EstimatorKernels earlier);
+             EstimatorKernels earlier, const KernelSource& source = embeddedKernel);
     Renderer(const Renderer&) = delete; // the wavefront refers to the scene and the film
     Renderer& operator=(const Renderer&) = delete;
 
@@ -39,6 +41,10 @@ class Renderer {
     // Takes samples until the settings or `keepGoing` say stop. The film is valid after an early end too:
     // each pixel knows how many samples it has.
     StopReason render(const KeepGoing& keepGoing);
+
+    // Goes on with kernels whose code has changed, and an empty film; returns the names of those kernels.
+    // Throws Error where one does not compile: then nothing has changed.
+    std::vector<std::string> reloadKernels(const KernelSource& source);
 
     [[nodiscard]] const Film& film() const { return film_; }
     [[nodiscard]] Rendering rendering() const { return film_.resolve(); }
@@ -59,10 +65,12 @@ class Renderer {
 
     struct Setup;
     Renderer(gpu::Device& device, const RenderSettings& settings,
-             const std::function<Setup(const RenderSettings&)>& setUp);
-    Renderer(gpu::Device& device, const RenderSettings& settings, Setup setup);
+             const std::function<Setup(const RenderSettings&)>& setUp, const KernelSource& source);
+    Renderer(gpu::Device& device, const RenderSettings& settings, Setup setup, const KernelSource& source);
 
+    gpu::Device* device_;
     RenderSettings settings_;
+    FrameParameters frame_;
     EstimatorKernels kernels_;
     GpuScene scene_;
     Film film_;

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "base/error.h"
 #include "render/setting_names.h"
@@ -91,6 +92,8 @@ std::vector<std::pair<std::string, std::string>> describe(const RenderSettings& 
         add("env-rotation", settings.environmentRotation);
     }
     add("env-intensity", settings.environmentIntensity);
+    if (!settings.changedShaders.empty())
+        add("shaders", fmt::format("{}", fmt::join(settings.changedShaders, ",")));
     pairs.insert(pairs.end(), settings.cameraOptions.begin(), settings.cameraOptions.end());
     return pairs;
 }

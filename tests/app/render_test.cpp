@@ -9,7 +9,7 @@
 #include "base/file.h"
 #include "image/exr.h"
 #include "support/environment_variable.h"
-#include "support/interrupt_program.h"
+#include "support/running_program.h"
 #include "support/run_program.h"
 #include "support/temporary_folder.h"
 
@@ -19,6 +19,7 @@ namespace {
 using nlohmann::json;
 using test::EnvironmentVariable;
 using test::ProgramResult;
+using test::RunningProgram;
 using test::runLavalight;
 using test::TemporaryFolder;
 
@@ -234,9 +235,10 @@ TEST_F(Render, PresetsAreStartingPoints) {
 
 TEST_F(Render, InterruptionWritesTheImageSoFar) {
     const uint32_t asked = 1'000'000;
-    const ProgramResult result = test::interruptLavalight(
+    RunningProgram program(
         {"render", "--size", "32x24", "--spp", std::to_string(asked), "-o", "a.exr", "--report", "a.json"},
         folder_.path());
+    const ProgramResult result = program.interrupt();
     EXPECT_EQ(result.exitCode, 130) << result.err;
     EXPECT_EQ(folder_.count(), 2); // nothing half-written
     const std::vector<uint32_t> counts = image("a.exr").sampleCounts.value();

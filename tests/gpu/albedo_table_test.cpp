@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "render/albedo_table.h"
+#include "render/kernel_source.h"
 #include "shared/scene.h"
 #include "support/run_kernel.h"
 #include "support/test_device.h"
@@ -39,7 +40,7 @@ class AlbedoTableTest : public DeviceTest {
                 const float root = (static_cast<float>(column) + shift) / (kAlbedoCosines - 1);
                 questions.push_back({root * root, roughness * roughness});
             }
-        const gpu::Buffer table = makeAlbedoTable(device());
+        const gpu::Buffer table = makeAlbedoTable(device(), embeddedKernel("albedo")).buffer;
         gpu::ResourceTable resources;
         resources.set("albedoTable", table);
         KernelRunner runner(device(), test_kernels::find("albedo_table_test"), resources);

@@ -1,6 +1,7 @@
 #include "support/test_materials.h"
 
 #include "render/albedo_table.h"
+#include "render/kernel_source.h"
 
 namespace lavalight::test {
 namespace {
@@ -190,7 +191,7 @@ std::vector<TestMaterial> smoothFilms() {
 }
 
 MaterialBuffers::MaterialBuffers(gpu::Device& device, std::span<const TestMaterial> materials)
-    : records_(uploadRecords(device, materials)), albedoTable_(makeAlbedoTable(device)) {}
+    : records_(uploadRecords(device, materials)), albedoTable_(makeAlbedoTable(device, embeddedKernel("albedo")).buffer) {}
 
 gpu::ResourceTable MaterialBuffers::resources() const {
     gpu::ResourceTable table;

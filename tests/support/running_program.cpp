@@ -1,9 +1,8 @@
-#include "support/interrupt_program.h"
+#include "support/running_program.h"
 
 #include <chrono>
 #include <csignal>
 #include <fstream>
-#include <optional>
 #include <stdexcept>
 #include <thread>
 
@@ -13,12 +12,12 @@
 #include <unistd.h>
 
 #include "base/file.h"
-#include "support/temporary_folder.h"
 
 namespace lavalight::test {
 namespace {
 
 constexpr std::chrono::seconds kTimeAllowed(120);
+constexpr std::chrono::milliseconds kTurn(2);
 
 // Whether the process has a handler for the signal: a bit of the SigCgt mask that Linux shows of each
 // process.
@@ -51,35 +50,63 @@ pid_t start(std::vector<std::string> words, const std::filesystem::path& folder,
     return process;
 }
 
-// Exit code of a process that has ended.
-std::optional<int> exitCode(pid_t process) {
-    int status = 0;
-    if (::waitpid(process, &status, WNOHANG) != process)
-        return std::nullopt;
-    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+int timesIn(const std::string& text, const std::string& part) {
+    int times = 0;
+    for (size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + part.size()))
+        ++times;
+    return times;
 }
 
 } // namespace
 
-ProgramResult interruptLavalight(const std::vector<std::string>& arguments,
-                                 const std::filesystem::path& folder) {
+RunningProgram::RunningProgram(const std::vector<std::string>& arguments, const std::filesystem::path& folder)
+    : deadline_(std::chrono::steady_clock::now() + kTimeAllowed) {
     std::vector<std::string> words = {LAVALIGHT_BINARY};
     words.insert(words.end(), arguments.begin(), arguments.end());
-    const TemporaryFolder printed;
-    const auto deadline = std::chrono::steady_clock::now() + kTimeAllowed;
-    const pid_t process = start(words, folder, printed / "out", printed / "err");
-    bool isInterrupted = false;
+    process_ = start(words, folder, printed_ / "out", printed_ / "err");
+}
+
+RunningProgram::~RunningProgram() {
+    if (process_ != 0) {
+        ::kill(process_, SIGKILL);
+        ::waitpid(process_, nullptr, 0);
+    }
+}
+
+bool RunningProgram::hasEnded() {
+    if (process_ != 0 && std::chrono::steady_clock::now() > deadline_)
+        ::kill(process_, SIGKILL);
+    int status = 0;
+    if (process_ != 0 && ::waitpid(process_, &status, WNOHANG) == process_) {
+        exitCode_ = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+        process_ = 0;
+    }
+    return process_ == 0;
+}
+
+ProgramResult RunningProgram::result() const {
+    return {exitCode_, readFile(printed_ / "out"), readFile(printed_ / "err")};
+}
+
+bool RunningProgram::waitForText(const std::string& text, int times) {
     for (;;) {
-        if (const std::optional<int> code = exitCode(process))
-            return {*code, readFile(printed / "out"), readFile(printed / "err")};
-        if (!isInterrupted && catches(process, SIGINT)) {
-            ::kill(process, SIGINT);
+        const bool isLast = hasEnded(); // asked first: what it wrote at its end counts
+        const ProgramResult now = result();
+        if (timesIn(now.out, text) + timesIn(now.err, text) >= times)
+            return true;
+        if (isLast)
+            return false;
+        std::this_thread::sleep_for(kTurn);
+    }
+}
+
+ProgramResult RunningProgram::interrupt() {
+    for (bool isInterrupted = false; !hasEnded(); std::this_thread::sleep_for(kTurn))
+        if (!isInterrupted && catches(process_, SIGINT)) {
+            ::kill(process_, SIGINT);
             isInterrupted = true;
         }
-        if (std::chrono::steady_clock::now() > deadline)
-            ::kill(process, SIGKILL);
-        std::this_thread::sleep_for(std::chrono::milliseconds(2));
-    }
+    return result();
 }
 
 } // namespace lavalight::test

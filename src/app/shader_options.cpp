@@ -1,0 +1,67 @@
+#include "app/shader_options.h"
+
+#include <chrono>
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "base/error.h"
+#include "base/log.h"
+
+namespace lavalight {
+namespace {
+
+constexpr const char* kOwnFolder = "shaders"; // of the source tree
+
+} // namespace
+
+ShaderOptions::ShaderOptions(CLI::App& parser) {
+    parser
+        .add_option("--shaders", folder_,
+                    "Folder of shader files that stand in for those of the same path (see new-experiment)")
+        ->type_name("DIR");
+    parser.add_flag("--watch", isWatching_,
+                    "Render again whenever a file of --shaders (default: ./shaders) is saved, until Ctrl-C");
+}
+
+std::string ShaderOptions::folder() const {
+    if (!folder_.empty() || !isWatching_)
+        return folder_;
+    if (!std::filesystem::is_regular_file(std::filesystem::path(kOwnFolder) / "kernels/path.comp"))
+        throw UsageError("--watch: there is no folder of shaders here; give --shaders DIR (lavalight "
+                         "new-experiment makes one)");
+    return kOwnFolder;
+}
+
+std::optional<ShaderOverlay> ShaderOptions::overlay() const {
+    const std::string where = folder();
+    if (where.empty())
+        return std::nullopt;
+    ShaderOverlay overlay(where);
+    for (const std::string& path : overlay.unused())
+        spdlog::warn("{}/{}: no kernel includes a file of that path", where, path);
+    return overlay;
+}
+
+bool ShaderOptions::reload(const std::vector<std::string>& changes, Renderer& renderer) const {
+    const auto start = std::chrono::steady_clock::now();
+    spdlog::info("saved: {}", fmt::join(changes, ", "));
+    try {
+        const ShaderOverlay now = overlay().value();
+        const std::vector<std::string> names =
+            renderer.reloadKernels([&](std::string_view name) { return now.kernel(name); });
+        const double seconds =
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        if (names.empty())
+            spdlog::info("no kernel has changed");
+        else
+            spdlog::info("compiled {} in {:.2f} s", fmt::join(names, ", "), seconds);
+        return !names.empty();
+    } catch (const Error& error) {
+        spdlog::error("{}\nthe kernels from before go on", error.what());
+        return false;
+    }
+}
+
+} // namespace lavalight

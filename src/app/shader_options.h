@@ -1,0 +1,39 @@
+// Shaders that the user changed, and watching them change.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "render/renderer.h"
+#include "render/shader_overlay.h"
+
+namespace lavalight {
+
+// Declares --shaders and --watch. Must outlive the parsing; the parser points into it.
+class ShaderOptions {
+  public:
+    explicit ShaderOptions(CLI::App& parser);
+    ShaderOptions(const ShaderOptions&) = delete;
+    ShaderOptions& operator=(const ShaderOptions&) = delete;
+
+    [[nodiscard]] bool isWatching() const { return isWatching_; }
+    // --shaders, or, to watch, the source tree's own where that is the working folder. Throws UsageError
+    // where there is neither.
+    [[nodiscard]] std::string folder() const;
+    // The folder as it is now; none where none was asked for. Warns of files that nothing includes. Throws
+    // as ShaderOverlay does.
+    [[nodiscard]] std::optional<ShaderOverlay> overlay() const;
+
+    // After the files `changes` were saved: whether the renderer has new kernels and is to start anew. Tells
+    // on stderr what changed; what does not compile is told there, too, and leaves the renderer as it was.
+    [[nodiscard]] bool reload(const std::vector<std::string>& changes, Renderer& renderer) const;
+
+  private:
+    std::string folder_;
+    bool isWatching_ = false;
+};
+
+} // namespace lavalight

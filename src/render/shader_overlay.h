@@ -1,0 +1,42 @@
+// Shaders that a user changed: a folder of files that stand in for ours of the same path.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gpu/shader_build.h"
+
+namespace lavalight {
+
+// The sources that the build embedded, by their path below shaders/.
+[[nodiscard]] std::optional<std::string_view> embeddedShader(std::string_view path);
+[[nodiscard]] std::vector<std::string> embeddedShaderPaths();
+
+class ShaderOverlay {
+  public:
+    // Reads the .glsl, .comp and .h files below `folder`; those equal to ours change nothing. Throws Error
+    // where there is no such folder, or where a file of shared/ differs: the program itself was built with
+    // it.
+    explicit ShaderOverlay(const std::filesystem::path& folder);
+
+    // Compiled anew where one of the kernel's files is changed, else the embedded one. Throws Error with the
+    // compiler's message.
+    [[nodiscard]] gpu::KernelCode kernel(std::string_view name) const;
+
+    // Paths of the files that differ from ours or are new, ascending.
+    [[nodiscard]] std::vector<std::string> changed() const;
+    // Those of them that no kernel includes: a misspelt name, most likely.
+    [[nodiscard]] std::vector<std::string> unused() const;
+
+  private:
+    [[nodiscard]] std::optional<gpu::ShaderText> find(const std::string& path) const;
+    [[nodiscard]] std::vector<std::string> filesOf(const std::string& kernelPath) const;
+
+    std::map<std::string, gpu::ShaderText> texts_; // of the changed files
+};
+
+} // namespace lavalight
