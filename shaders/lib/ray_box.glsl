@@ -1,4 +1,4 @@
-// The slab test of a ray against the four quantised child boxes of a node, free of false misses.
+// The slab test of a ray against the eight quantised child boxes of a node, free of false misses.
 // Based on: Kay, Kajiya, "Ray Tracing Complex Scenes", 1986; quantised boxes after Ylitie, Karras, Laine, "Efficient
 // Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs", 2017.
 #ifndef LAVALIGHT_RAY_BOX_GLSL
@@ -62,28 +62,67 @@ float farthestPlane(vec3 toOrigin, uvec3 exponents) {
     return intBitsToFloat(max(max(size.x, size.y), size.z)) + 255.0 * uintBitsToFloat(exponent << 23u);
 }
 
-// A key for each of the four boxes, sorting by where the ray enters it, at least 0: the bits of that distance, of which the
-// two lowest give way to the box's number; kMissed where the ray has left the box, or is beyond tMax, before it enters.
-const uint kMissed = 0xffffffffu;
-uvec4 intersectBoxes(SlabRay ray, BvhNode node, float tMax) {
+// What the boxes of a node share: t of a plane is its byte * stepT + nearT where the ray enters, + farT where it leaves.
+struct NodeSlabs {
+    vec3 stepT;
+    vec3 nearT;
+    vec3 farT;
+};
+
+NodeSlabs nodeSlabs(SlabRay ray, BvhNode node) {
     uvec3 exponents = uvec3(node.exponents, node.exponents >> 8u, node.exponents >> 16u) & 0xffu;
     vec3 toOrigin = node.origin - ray.origin;
-    vec3 stepT = uintBitsToFloat(exponents << 23u) * ray.inverse;
     vec3 originT = toOrigin * ray.inverse;
     vec3 slack = farthestPlane(toOrigin, exponents) * ray.tolerance;
-    vec3 nearT = originT - slack;
-    vec3 farT = originT + slack;
+    return NodeSlabs(uintBitsToFloat(exponents << 23u) * ray.inverse, originT - slack, originT + slack);
+}
 
-    vec4 lowX = unpackBytes(ray.backwards.x ? node.planes[3] : node.planes[0]);
-    vec4 lowY = unpackBytes(ray.backwards.y ? node.planes[4] : node.planes[1]);
-    vec4 lowZ = unpackBytes(ray.backwards.z ? node.planes[5] : node.planes[2]);
-    vec4 highX = unpackBytes(ray.backwards.x ? node.planes[0] : node.planes[3]);
-    vec4 highY = unpackBytes(ray.backwards.y ? node.planes[1] : node.planes[4]);
-    vec4 highZ = unpackBytes(ray.backwards.z ? node.planes[2] : node.planes[5]);
-    ivec4 enter = max(maxBits(lowX * stepT.x + nearT.x, lowY * stepT.y + nearT.y), maxBits(lowZ * stepT.z + nearT.z, vec4(0.0)));
-    ivec4 leave = min(minBits(highX * stepT.x + farT.x, highY * stepT.y + farT.y), minBits(highZ * stepT.z + farT.z, vec4(tMax)));
-    uvec4 keys = (uvec4(enter) & ~3u) | uvec4(0u, 1u, 2u, 3u);
-    return mix(uvec4(kMissed), keys, lessThanEqual(enter, leave));
+// Of four boxes, whose planes are the bytes of one word each: a key, sorting by where the ray enters, at least 0: the bits of
+// that distance, of which the three lowest give way to the box's slot; and the slot's bit. kMissed and 0 where the box is not
+// asked for, or the ray has left it, or is beyond tMax, before it enters.
+struct FourBoxes {
+    uvec4 keys;
+    uvec4 bits;
+};
+
+const uint kMissed = 0xffffffffu;
+const uint kKeySlotMask = kBvhWidth - 1u;
+
+FourBoxes intersectFour(NodeSlabs slabs, uvec3 enterPlanes, uvec3 leavePlanes, uint asked, float tMax, uvec4 slots) {
+    vec4 enterX = unpackBytes(enterPlanes.x) * slabs.stepT.x + slabs.nearT.x;
+    vec4 enterY = unpackBytes(enterPlanes.y) * slabs.stepT.y + slabs.nearT.y;
+    vec4 enterZ = unpackBytes(enterPlanes.z) * slabs.stepT.z + slabs.nearT.z;
+    vec4 leaveX = unpackBytes(leavePlanes.x) * slabs.stepT.x + slabs.farT.x;
+    vec4 leaveY = unpackBytes(leavePlanes.y) * slabs.stepT.y + slabs.farT.y;
+    vec4 leaveZ = unpackBytes(leavePlanes.z) * slabs.stepT.z + slabs.farT.z;
+    ivec4 enter = max(maxBits(enterX, enterY), maxBits(enterZ, vec4(0.0)));
+    ivec4 leave = min(minBits(leaveX, leaveY), minBits(leaveZ, vec4(tMax)));
+    uvec4 bits = mix(uvec4(0u), uvec4(1u) << slots, lessThanEqual(enter, leave)) & asked;
+    return FourBoxes(mix(uvec4(kMissed), uvec4(enter) & ~kKeySlotMask | slots, notEqual(bits, uvec4(0u))), bits);
+}
+
+// Which of a node's boxes a ray meets: a bit for each slot, and the one that it enters first, if any.
+struct MetBoxes {
+    uint slots;
+    uint nearest;
+};
+
+// `asked` has a bit for each slot to test.
+MetBoxes intersectBoxes(SlabRay ray, BvhNode node, uint asked, float tMax) {
+    NodeSlabs slabs = nodeSlabs(ray, node);
+    uvec2 enterX = ray.backwards.x ? node.upper[0] : node.lower[0];
+    uvec2 enterY = ray.backwards.y ? node.upper[1] : node.lower[1];
+    uvec2 enterZ = ray.backwards.z ? node.upper[2] : node.lower[2];
+    uvec2 leaveX = ray.backwards.x ? node.lower[0] : node.upper[0];
+    uvec2 leaveY = ray.backwards.y ? node.lower[1] : node.upper[1];
+    uvec2 leaveZ = ray.backwards.z ? node.lower[2] : node.upper[2];
+    FourBoxes low = intersectFour(slabs, uvec3(enterX.x, enterY.x, enterZ.x), uvec3(leaveX.x, leaveY.x, leaveZ.x), asked,
+                                  tMax, uvec4(0u, 1u, 2u, 3u));
+    FourBoxes high = intersectFour(slabs, uvec3(enterX.y, enterY.y, enterZ.y), uvec3(leaveX.y, leaveY.y, leaveZ.y), asked,
+                                   tMax, uvec4(4u, 5u, 6u, 7u));
+    uvec4 keys = min(low.keys, high.keys);
+    uvec4 bits = low.bits | high.bits;
+    return MetBoxes(bits.x | bits.y | bits.z | bits.w, min(min(keys.x, keys.y), min(keys.z, keys.w)) & kKeySlotMask);
 }
 
 #endif

@@ -26,30 +26,17 @@ BvhNode loadNode(uint index) {
     uvec4 b = texelFetch(bvhNodes, texel + 1);
     uvec4 c = texelFetch(bvhNodes, texel + 2);
     uvec4 d = texelFetch(bvhNodes, texel + 3);
-    return BvhNode(uintBitsToFloat(a.xyz), a.w, b, uint[6](c.x, c.y, c.z, c.w, d.x, d.y), uint[2](0u, 0u));
+    uvec4 e = texelFetch(bvhNodes, texel + 4);
+    return BvhNode(uintBitsToFloat(a.xyz), a.w, BvhChildren(b.x, b.y, b.zw), uvec2[3](c.xy, c.zw, d.xy),
+                   uvec2[3](d.zw, e.xy, e.zw));
 }
 
-uvec4 loadChildren(uint node) {
-    return texelFetch(bvhNodes, int(node * kNodeTexels) + 1);
-}
-
-uint childReference(uvec4 children, uint number) {
-    return number == 0u ? children.x : number == 1u ? children.y : number == 2u ? children.z : children.w;
-}
-
-void orderPair(inout uint a, inout uint b) {
-    uint smaller = min(a, b);
-    b = max(a, b);
-    a = smaller;
-}
-
-// Five comparisons sort four.
-void order(inout uvec4 keys) {
-    orderPair(keys.x, keys.y);
-    orderPair(keys.z, keys.w);
-    orderPair(keys.x, keys.z);
-    orderPair(keys.y, keys.w);
-    orderPair(keys.y, keys.z);
+uint childReference(BvhChildren children, uint slot) {
+    uint content = (slot < 4u ? children.slots.x : children.slots.y) >> 8u * (slot & 3u);
+    uint count = content >> kSlotCountShift & kSlotCountMask;
+    uint offset = content & kSlotOffsetMask;
+    return count == kSlotIsNode ? children.firstNode + offset
+                                : kLeafBit | count << kLeafCountShift | (children.firstTriangle + offset);
 }
 
 // What a ray passes through. A triangle that a ray starts or ends on must not be hit there: no offset of the origin could
@@ -89,6 +76,20 @@ bool intersectLeaf(ShearedRay ray, uint leaf, RayFilter ignored, inout AlphaQues
     return found;
 }
 
+// Takes the nearest of the siblings: a leaf is returned, of a node the children become the siblings at hand.
+uint nextLeaf(SlabRay slab, float tMax, inout uint siblings, inout Stack stack) {
+    visited.nodes += kCountVisits ? 1u : 0u;
+    BvhNode node = loadNode(parentOf(siblings));
+    MetBoxes met = intersectBoxes(slab, node, siblings & kAllSlots, tMax);
+    siblings = siblings & ~kAllSlots | met.slots & ~(1u << met.nearest);
+    uint nearest = met.slots != 0u ? childReference(node.children, met.nearest) : kEmptyLeaf;
+    bool isNode = (nearest & kLeafBit) == 0u;
+    if (isNode && anyWaits(siblings))
+        push(stack, siblings);
+    siblings = isNode ? childrenOf(nearest) : siblings;
+    return isNode ? kEmptyLeaf : nearest;
+}
+
 // Depth first, near children first. A step tests a node and then, whatever came of it, a leaf: rays that run in lockstep
 // would otherwise pay for both and take one. Returns at the first hit if `any`.
 bool traverse(vec3 origin, vec3 direction, RayFilter ignored, bool any, inout Hit hit) {
@@ -96,41 +97,30 @@ bool traverse(vec3 origin, vec3 direction, RayFilter ignored, bool any, inout Hi
     SlabRay slab = slabRay(origin, direction);
     ShearedRay sheared = shearRay(origin, direction);
     Stack stack = emptyStack();
-    Siblings siblings = Siblings(0u, kNobody);
-    uint current = 0u; // a node, a leaf, or, as an empty leaf, nothing
+    uint siblings = childrenOf(0u);
+    uint leaf = kEmptyLeaf;
     bool found = false;
     AlphaQuestion question = kNoQuestion;
     while (true) {
         while (stack.size < kStackRegisters && !question.isOpen) {
-            if ((current & kLeafBit) == 0u) {
-                visited.nodes += kCountVisits ? 1u : 0u;
-                BvhNode node = loadNode(current);
-                uvec4 keys = intersectBoxes(slab, node, hit.t);
-                order(keys);
-                if (keys.x != kMissed && anyWaits(siblings))
-                    push(stack, siblings);
-                if (keys.x != kMissed)
-                    siblings = siblingsOfNearest(current, keys);
-                current = keys.x != kMissed ? childReference(node.children, keys.x & 3u) : kEmptyLeaf;
-            }
-            if ((current & kLeafBit) != 0u) {
-                found = intersectLeaf(sheared, current, ignored, question, hit) || found;
-                if (any && found)
-                    return true;
-                if (question.isOpen)
-                    continue; // and then once more through this leaf
-                question.passed = 0u;
-                while (!anyWaitsBefore(siblings, hit.t) && stack.size > 0u)
+            if (!sceneHas(kFeatureAlpha) || leaf == kEmptyLeaf) {
+                if (!anyWaits(siblings))
                     siblings = pop(stack);
-                current = kEmptyLeaf;
-                if (!anyWaitsBefore(siblings, hit.t))
-                    break;
-                current = childReference(loadChildren(siblings.parent), takeNext(siblings));
+                leaf = nextLeaf(slab, hit.t, siblings, stack);
             }
+            found = intersectLeaf(sheared, leaf, ignored, question, hit) || found;
+            if (any && found)
+                return true;
+            if (question.isOpen)
+                continue; // and then once more through this leaf
+            question.passed = 0u;
+            leaf = kEmptyLeaf;
+            if (!anyWaits(siblings) && stack.size == 0u)
+                break;
         }
         bool asked = question.isOpen;
         if (sceneHas(kFeatureAlpha)) {
-            found = answerAlpha(current & kLeafFirstMask, ignored.alphaSeed, question, hit) || found;
+            found = answerAlpha(leaf & kLeafFirstMask, ignored.alphaSeed, question, hit) || found;
             if (any && found)
                 return true;
         }

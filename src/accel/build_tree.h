@@ -1,4 +1,4 @@
-// The binary tree between the builders and the flattening, and how it collapses to a 4-wide one.
+// The binary tree between the builders and the flattening, and how it collapses to a wide one.
 #pragma once
 
 #include <algorithm>
@@ -30,12 +30,12 @@ struct BuildBox {
     }
 };
 
-// The cheapest ways to hand a subtree to a 4-wide tree: what Plan decides and collapsing carries out.
+// The cheapest ways to hand a subtree to a wide tree: what Plan decides and collapsing carries out.
 struct Plan {
-    std::array<double, 4> cost{};   // [i]: of the subtree, as at most i + 1 children of one wide node
-    std::array<uint8_t, 4> roots{}; // [i]: how many children that is, 1 to i + 1
-    std::array<uint8_t, 4> share{}; // [i]: of i + 1 children, i > 0, how many come from the left
-    bool isLeaf = true;             // where the subtree is one child: a leaf of all its triangles
+    std::array<double, kBvhWidth> cost{};   // [i]: of the subtree, as at most i + 1 children of one wide node
+    std::array<uint8_t, kBvhWidth> roots{}; // [i]: how many children that is, 1 to i + 1
+    std::array<uint8_t, kBvhWidth> share{}; // [i]: of i + 1 children, i > 0, how many come from the left
+    bool isLeaf = true;                     // where the subtree is one child: a leaf of all its triangles
 };
 
 // A reference to one triangle, or an inner node with two children, which lie in the arena that made the node.
@@ -63,10 +63,10 @@ struct WideChild {
     bool isLeaf = false; // then it has at most kMaxLeafTriangles references
 };
 
-// Which subtrees become children of a wide node, one to four, so that the tree is the cheapest.
+// Which subtrees become children of a wide node, one to kBvhWidth, so that the tree is the cheapest.
 [[nodiscard]] std::vector<WideChild> wideChildren(const BuildNode& node);
 
-// Collapses to four children a node, quantises, and lays nodes and leaf triangles out depth first; fills
+// Collapses to kBvhWidth children a node, quantises, and lays nodes and leaf triangles out depth first; fills
 // nodes, leafTriangles and levels. `root` may be null: no triangles. Throws Error if the result exceeds
 // requireBvhFits.
 [[nodiscard]] Bvh flattenTree(const BuildNode* root);

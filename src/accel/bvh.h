@@ -12,7 +12,7 @@
 namespace lavalight {
 
 struct BvhConfig {
-    float triangleCost = 0.3f; // of a triangle's test relative to that of a node's four boxes
+    float triangleCost = 0.3f; // of a triangle's test relative to that of a node's boxes
     float splitBudget = 0.2f;  // splitting large triangles may add this share of references
     uint32_t threads = 0;      // 0: as many as there are cores; the tree does not depend on it
 };
@@ -30,8 +30,8 @@ struct Bvh {
 // beyond kMaxCoordinate, and for scenes beyond requireBvhFits.
 [[nodiscard]] Bvh buildBvh(std::span<const Triangle> triangles, const BvhConfig& config = {});
 
-// Throws Error, naming the figure, unless that many leaf triangles and nodes fit into texel buffers of
-// kMaxTexels.
+// Throws Error, naming the figure, unless that many leaf triangles fit into a texel buffer of kMaxTexels, and
+// nodes are at most kMaxNodes.
 void requireBvhFits(uint64_t leafTriangles, uint64_t nodes);
 
 } // namespace lavalight

@@ -128,11 +128,11 @@ void requireBvhFits(uint64_t leafTriangles, uint64_t nodes) {
             fmt::format("cannot build the BVH: {} leaf triangles exceed the {} that fit into a texel buffer: "
                         "simplify the scene",
                         leafTriangles, kMaxTexels / kLeafTriangleTexels));
-    if (nodes * kNodeTexels > kMaxTexels)
-        throw Error(
-            fmt::format("cannot build the BVH: {} nodes exceed the {} that fit into a texel buffer: simplify "
-                        "the scene",
-                        nodes, kMaxTexels / kNodeTexels));
+    static_assert(kMaxNodes * kNodeTexels <= kMaxTexels);
+    if (nodes > kMaxNodes)
+        throw Error(fmt::format(
+            "cannot build the BVH: {} nodes exceed the {} that traversal can number: simplify the scene",
+            nodes, kMaxNodes));
 }
 
 Bvh buildBvh(std::span<const Triangle> triangles, const BvhConfig& config) {

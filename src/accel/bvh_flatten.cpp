@@ -1,4 +1,4 @@
-// From the binary tree to the quantised 4-wide nodes of shared/bvh.h.
+// From the binary tree to the quantised 8-wide nodes of shared/bvh.h.
 // Based on: Ylitie, Karras, Laine, "Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs",
 // 2017: the exponents and 8-bit planes.
 #include <algorithm>
@@ -34,9 +34,9 @@ int gridExponent(float lower, float upper) {
     return exponent;
 }
 
-void setPlane(BvhNode& node, int plane, size_t child, double value) {
+void setPlane(glm::uvec2& plane, size_t slot, double value) {
     assert(value >= 0.0 && value <= 255.0);
-    node.planes[plane] |= static_cast<uint32_t>(value) << (8 * child);
+    plane[static_cast<int>(slot / 4)] |= static_cast<uint32_t>(value) << (8 * (slot % 4));
 }
 
 void quantise(const std::vector<WideChild>& children, BvhNode& node) {
@@ -48,15 +48,15 @@ void quantise(const std::vector<WideChild>& children, BvhNode& node) {
         const int exponent = gridExponent(box.lower[axis], box.upper[axis]);
         node.exponents |= static_cast<uint32_t>(exponent + 127) << (8 * axis);
         const double step = std::ldexp(1.0, exponent);
-        for (size_t i = 0; i < 4; ++i) {
+        for (size_t i = 0; i < kBvhWidth; ++i) {
             const bool empty = i >= children.size();
             const double lower =
                 empty ? 255.0
                       : differenceDown(children[i].subtree->box.lower[axis], node.origin[axis]) / step;
             const double upper =
                 empty ? 0.0 : differenceUp(children[i].subtree->box.upper[axis], node.origin[axis]) / step;
-            setPlane(node, axis, i, std::max(std::floor(lower), 0.0));
-            setPlane(node, axis + 3, i, std::ceil(upper));
+            setPlane(node.lower[axis], i, std::max(std::floor(lower), 0.0));
+            setPlane(node.upper[axis], i, std::ceil(upper));
         }
     }
 }
@@ -68,36 +68,48 @@ class Flattener {
         if (root)
             emit(0, *root, 1);
         else
-            emitChildren(0, {});
+            bvh_.nodes[0] = emptyNode();
         return std::move(bvh_);
     }
 
   private:
     Bvh bvh_;
 
+    static BvhNode emptyNode() {
+        BvhNode node{};
+        for (glm::uvec2& lower : node.lower)
+            lower = glm::uvec2(0xffffffffu); // 255, above upper 0
+        return node;
+    }
+
     void emit(uint32_t index, const BuildNode& node, uint32_t level) {
         bvh_.levels = std::max(bvh_.levels, level);
         const std::vector<WideChild> children = wideChildren(node);
-        emitChildren(index, children);
-        for (size_t i = 0; i < children.size(); ++i)
-            if (!children[i].isLeaf)
-                emit(bvh_.nodes[index].children[static_cast<int>(i)], *children[i].subtree, level + 1);
+        emitNode(index, children);
+        uint32_t next = bvh_.nodes[index].children.firstNode;
+        for (const WideChild& child : children)
+            if (!child.isLeaf)
+                emit(next++, *child.subtree, level + 1);
     }
 
-    void emitChildren(uint32_t index, const std::vector<WideChild>& children) {
+    void emitNode(uint32_t index, const std::vector<WideChild>& children) {
         BvhNode node{};
-        if (!children.empty())
-            quantise(children, node);
-        else
-            std::fill_n(node.planes, 3, 0xffffffffu); // lower 255 above upper 0
-        for (size_t i = 0; i < 4; ++i) {
-            uint32_t& reference = node.children[static_cast<int>(i)];
-            if (i >= children.size())
-                reference = kLeafBit;
-            else
-                reference = children[i].isLeaf ? appendLeaf(*children[i].subtree) : appendNode();
-        }
+        quantise(children, node);
+        node.children.firstNode = static_cast<uint32_t>(bvh_.nodes.size());
+        node.children.firstTriangle = static_cast<uint32_t>(bvh_.leafTriangles.size());
+        for (size_t i = 0; i < children.size(); ++i)
+            node.children.slots[static_cast<int>(i / 4)] |= appendChild(node.children, children[i])
+                                                            << (8 * (i % 4));
         bvh_.nodes[index] = node;
+    }
+
+    static_assert((kBvhWidth - 1) * kMaxLeafTriangles <= kSlotOffsetMask);
+    // Returns what its slot says.
+    uint32_t appendChild(const BvhChildren& first, const WideChild& child) {
+        if (!child.isLeaf)
+            return kSlotIsNode << kSlotCountShift | (appendNode() - first.firstNode);
+        const auto offset = static_cast<uint32_t>(bvh_.leafTriangles.size()) - first.firstTriangle;
+        return appendLeaf(*child.subtree) << kSlotCountShift | offset;
     }
 
     uint32_t appendNode() {
@@ -115,7 +127,7 @@ class Flattener {
             appendReferences(*child);
     }
 
-    // Parts of one triangle that ended up in one leaf become one again.
+    // Parts of one triangle that ended up in one leaf become one again. Returns how many triangles it has.
     uint32_t appendLeaf(const BuildNode& leaf) {
         std::vector<uint32_t>& all = bvh_.leafTriangles;
         requireBvhFits(all.size() + leaf.count, 0);
@@ -123,8 +135,7 @@ class Flattener {
         appendReferences(leaf);
         std::sort(all.begin() + first, all.end());
         all.erase(std::unique(all.begin() + first, all.end()), all.end());
-        const auto count = static_cast<uint32_t>(all.size() - first);
-        return kLeafBit | count << kLeafCountShift | first;
+        return static_cast<uint32_t>(all.size() - first);
     }
 };
 

@@ -1,4 +1,4 @@
-// From the binary tree to the cheapest 4-wide one.
+// From the binary tree to the cheapest wide one.
 // Based on: Ylitie, Karras, Laine, "Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs",
 // 2017, section 3.1: dynamic programming over the number of children that a subtree gives to its wide node.
 #include <algorithm>
@@ -10,7 +10,7 @@ namespace lavalight {
 
 namespace {
 
-// Of testing a node's four boxes; triangleCost is relative to it.
+// Of testing a node's boxes; triangleCost is relative to it.
 constexpr double kNodeCost = 1.0;
 
 double leafCost(const BuildNode& node, float triangleCost) {
@@ -34,16 +34,16 @@ Plan planInner(const BuildNode& node, float triangleCost) {
     const Plan& left = node.children[0]->plan;
     const Plan& right = node.children[1]->plan;
     Plan plan;
-    std::array<double, 4> distributed{};
-    plan.share[1] = plan.share[2] = plan.share[3] = 1; // stands where all costs are infinite
-    for (size_t i = 1; i < 4; ++i)
+    std::array<double, kBvhWidth> distributed{};
+    plan.share.fill(1); // stands where all costs are infinite
+    for (size_t i = 1; i < kBvhWidth; ++i)
         distributed[i] = distribute(left, right, i + 1, plan.share[i]);
-    const double asNode = node.box.area() * kNodeCost + distributed[3];
+    const double asNode = node.box.area() * kNodeCost + distributed[kBvhWidth - 1];
     const double asLeaf = leafCost(node, triangleCost);
     plan.isLeaf = node.count <= kMaxLeafTriangles && asLeaf <= asNode;
     plan.cost[0] = plan.isLeaf ? asLeaf : asNode;
     plan.roots[0] = 1;
-    for (size_t i = 1; i < 4; ++i) {
+    for (size_t i = 1; i < kBvhWidth; ++i) {
         const bool more = distributed[i] < plan.cost[i - 1];
         plan.cost[i] = more ? distributed[i] : plan.cost[i - 1];
         plan.roots[i] = more ? static_cast<uint8_t>(i + 1) : plan.roots[i - 1];
@@ -84,10 +84,10 @@ std::vector<WideChild> wideChildren(const BuildNode& node) {
     if (node.count == 1)
         return {{&node, true}};
     std::vector<WideChild> children;
-    const size_t share = node.plan.share[3];
+    const size_t share = node.plan.share[kBvhWidth - 1];
     appendCheapest(*node.children[0], share, children);
-    appendCheapest(*node.children[1], 4 - share, children);
-    assert(children.size() <= 4);
+    appendCheapest(*node.children[1], kBvhWidth - share, children);
+    assert(children.size() <= kBvhWidth);
     return children;
 }
 

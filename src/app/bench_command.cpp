@@ -31,7 +31,7 @@ struct Row {
     double agreement = 0.0; // share of the rays with the same answer from both
     double ours = 0.0;      // Mrays/s, median over the repeats
     double embree = 0.0;
-    double nodes = 0.0; // of four children, and triangles, that a ray of ours visits on average
+    double nodes = 0.0; // and triangles that a ray of ours visits on average
     double triangles = 0.0;
     [[nodiscard]] double ratio() const { return ours / embree; }
 };

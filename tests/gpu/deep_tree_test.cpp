@@ -43,7 +43,7 @@ ClosedMesh halvingRow(int powers, int perPower) {
 class DeepTreeTest : public DeviceTest {};
 
 TEST_F(DeepTreeTest, IsSearchedToItsEnd) {
-    const Scene scene = sceneOf(halvingRow(24, 40));
+    const Scene scene = sceneOf(halvingRow(32, 40));
     const std::vector<Triangle> triangles = sceneTriangles(scene);
     ASSERT_GT(buildBvh(triangles).levels, 16u); // twice the entries that stay in registers
     std::vector<Ray> rays;

@@ -35,7 +35,8 @@ const FrameParameters kFrameParameters{{1, 2, 3},    4,  {5, 6, 7},    8,  {9, 1
 const TriangleNormals kTriangleNormals{1, 2, 3, 4};
 const TracedHit kTracedHit{1, 2};
 // Loaded through texel buffers; what no kernel loads is 0.
-const BvhNode kBvhNode{{1, 2, 3}, 4, {5, 6, 7, 8}, {9, 10, 11, 12, 13, 14}, {0, 0}};
+const BvhNode kBvhNode{
+    {1, 2, 3}, 4, {5, 6, {7, 8}}, {{9, 10}, {11, 12}, {13, 14}}, {{15, 16}, {17, 18}, {19, 20}}};
 const LeafTriangle kLeafTriangle{{1, 2, 3}, 4, {5, 6, 7}, 8, {9, 10, 11}, 12};
 const MaterialRecord kMaterialRecord{
     {1, 2, 3}, 4,  {5, 6, 7},    8,  {9, 10, 11}, 12,           13, 14, 15,           16, 17, 18,

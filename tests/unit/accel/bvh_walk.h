@@ -22,15 +22,27 @@ struct Box {
 };
 
 // Exact where origin and extent are within 2^29 of each other in size.
-inline Box childBox(const BvhNode& node, int child) {
+inline Box childBox(const BvhNode& node, uint32_t slot) {
     Box box{};
+    const auto byte = [&](const glm::uvec2& plane) {
+        return plane[static_cast<int>(slot / 4)] >> (8 * (slot % 4)) & 0xffu;
+    };
     for (int axis = 0; axis < 3; ++axis) {
         const double step = std::ldexp(1.0, static_cast<int>(node.exponents >> (8 * axis) & 0xffu) - 127);
-        const auto byte = [&](int plane) { return node.planes[plane] >> (8 * child) & 0xffu; };
-        box.lower[axis] = node.origin[axis] + byte(axis) * step;
-        box.upper[axis] = node.origin[axis] + byte(axis + 3) * step;
+        box.lower[axis] = node.origin[axis] + byte(node.lower[axis]) * step;
+        box.upper[axis] = node.origin[axis] + byte(node.upper[axis]) * step;
     }
     return box;
+}
+
+// What lies in a slot, as traversal refers to it.
+inline uint32_t childReference(const BvhNode& node, uint32_t slot) {
+    const BvhChildren& children = node.children;
+    const uint32_t content = children.slots[static_cast<int>(slot / 4)] >> (8 * (slot % 4)) & 0xffu;
+    const uint32_t count = content >> kSlotCountShift;
+    const uint32_t offset = content & kSlotOffsetMask;
+    return count == kSlotIsNode ? children.firstNode + offset
+                                : kLeafBit | count << kLeafCountShift | (children.firstTriangle + offset);
 }
 
 // The triangles of a leaf reference.
@@ -43,12 +55,12 @@ inline bool isLeaf(uint32_t reference) {
     return (reference & kLeafBit) != 0;
 }
 
-// Calls visit(node index, child, level) for every child slot below a node, the root's level being 1.
-inline void forEachSlot(const Bvh& bvh, const std::function<void(uint32_t, int, uint32_t)>& visit,
+// Calls visit(node index, slot, level) for every slot below a node, the root's level being 1.
+inline void forEachSlot(const Bvh& bvh, const std::function<void(uint32_t, uint32_t, uint32_t)>& visit,
                         uint32_t node = 0, uint32_t level = 1) {
-    for (int child = 0; child < 4; ++child) {
-        visit(node, child, level);
-        if (const uint32_t reference = bvh.nodes[node].children[child]; !isLeaf(reference))
+    for (uint32_t slot = 0; slot < kBvhWidth; ++slot) {
+        visit(node, slot, level);
+        if (const uint32_t reference = childReference(bvh.nodes[node], slot); !isLeaf(reference))
             forEachSlot(bvh, visit, reference, level + 1);
     }
 }
@@ -91,10 +103,10 @@ inline bool meets(const Box& box, const OracleRay& ray) {
 inline double closestInTree(const Bvh& bvh, std::span<const Triangle> triangles, const OracleRay& ray,
                             uint32_t node = 0) {
     double closest = std::numeric_limits<double>::infinity();
-    for (int child = 0; child < 4; ++child) {
-        if (!meets(childBox(bvh.nodes[node], child), ray))
+    for (uint32_t slot = 0; slot < kBvhWidth; ++slot) {
+        if (!meets(childBox(bvh.nodes[node], slot), ray))
             continue;
-        const uint32_t reference = bvh.nodes[node].children[child];
+        const uint32_t reference = childReference(bvh.nodes[node], slot);
         if (!isLeaf(reference))
             closest = std::min(closest, closestInTree(bvh, triangles, ray, reference));
         else
