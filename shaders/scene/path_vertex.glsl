@@ -92,11 +92,12 @@ bool nextRay(Vertex v, inout Path path, out Ray ray) {
     return path.throughput != vec3(0.0) && isSameSide(v, wi, next.wi.z);
 }
 
-// Kills the path or makes up for those that died; indirect light only: what NEE found stays.
-bool survives(Vertex v, inout Path path) {
+// Kills the path or makes up for those that died; indirect light only: what NEE found stays. survival: the probability.
+bool survives(Vertex v, inout Path path, out float survival) {
+    survival = 1.0;
     if (v.key.vertex < frame.rouletteStart)
         return true;
-    const float survival = min(v.survival, survivalByThroughput(kRoulette, path.throughput * path.etaScale));
+    survival = min(v.survival, survivalByThroughput(kRoulette, path.throughput * path.etaScale));
     if (survival >= 1.0)
         return true;
     if (sample1D(v.key, kDimensionRoulette) >= survival)
@@ -124,7 +125,8 @@ Vertex makeVertex(Interaction surface, MaterialRecord material, vec3 wo, SampleK
 // What there is to trace after a vertex.
 struct NextRays {
     bool goesOn;
-    bool isCut; // by --max-bounces
+    bool isCut;     // by --max-bounces
+    float survival; // probability that roulette left the path; 1: nothing was drawn
     Ray ray;
     bool wantsShadowRay;
     ShadowRay shadow;
@@ -135,6 +137,7 @@ NextRays scatter(Hit hit, Ray ray, uint slot, uint bounce, inout Path path) {
     NextRays next;
     next.goesOn = false;
     next.isCut = false;
+    next.survival = 1.0;
     next.wantsShadowRay = false;
     if (hit.t == kInfinity) {
         const vec3 found = path.throughput * environmentRadiance(frame, ray.direction) *
@@ -170,6 +173,6 @@ NextRays scatter(Hit hit, Ray ray, uint slot, uint bounce, inout Path path) {
         next.wantsShadowRay = nextEvent(vertex, path.throughput, next.shadow);
 
     // ---- BSDF sampling and roulette ----
-    next.goesOn = nextRay(vertex, path, next.ray) && survives(vertex, path);
+    next.goesOn = nextRay(vertex, path, next.ray) && survives(vertex, path, next.survival);
     return next;
 }

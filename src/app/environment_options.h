@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include "render/settings.h"
+#include "scene/import_options.h"
 #include "scene/scene.h"
 
 namespace lavalight {
@@ -28,8 +29,9 @@ class EnvironmentOptions {
     float intensity_ = 1.0f;
 };
 
-// Reads the map that the settings name, if they do, into the scene. What had to be changed in it becomes a
-// warning of the scene. Throws Error for a file that is no map.
-void readEnvironmentMap(const RenderSettings& settings, Scene& scene);
+// The scene, built in or a file, with the environment map that the settings name, if they do. What had to be
+// changed in the map becomes a warning of the scene. Throws Error for a file that is no scene, or no map.
+[[nodiscard]] Scene loadLit(const std::string& nameOrPath, ImportOptions options,
+                            const RenderSettings& settings);
 
 } // namespace lavalight

@@ -22,6 +22,7 @@
 #include "app/new_experiment_command.h"
 #include "app/presets_command.h"
 #include "app/render_command.h"
+#include "app/trace_command.h"
 #include "base/error.h"
 #include "base/log.h"
 #include "base/version.h"
@@ -79,6 +80,7 @@ int parseAndRun(int argc, char** argv) {
     const auto commands = std::to_array<std::unique_ptr<Command>>({
         std::make_unique<RenderCommand>(app),
         std::make_unique<PresetsCommand>(app),
+        std::make_unique<TraceCommand>(app),
         std::make_unique<LabCommand>(app),
         std::make_unique<NewExperimentCommand>(app),
         std::make_unique<InfoCommand>(app),

@@ -71,13 +71,6 @@ void failOnValidation(const gpu::Device& device) {
                                 messages.front()));
 }
 
-Scene loadLit(const std::string& name, ImportOptions options, const RenderSettings& settings) {
-    options.bringsLight = settings.environment.has_value() || !settings.environmentFile.empty();
-    Scene scene = loadScene(name, options);
-    readEnvironmentMap(settings, scene);
-    return scene;
-}
-
 void fillInputs(RenderReport& report, const Scene& scene, const RenderSettings& settings) {
     report.settings = settings;
     report.scene = scene.source;
@@ -116,6 +109,7 @@ void printSummary(const RenderReport& report) {
 RenderCommand::RenderCommand(CLI::App& app)
     : Command(app, "render", "Render a scene to an image"), options_(parser()), sceneOptions_(parser()),
       sequence_(parser()), shaders_(parser()) {
+    shaders_.declareWatch(parser());
     parser()
         .add_option("scene", scene_,
                     "Built-in scene (" + fmt::format("{}", fmt::join(builtinNames(), ", ")) +

@@ -21,6 +21,9 @@ ShaderOptions::ShaderOptions(CLI::App& parser) {
         .add_option("--shaders", folder_,
                     "Folder of shader files that stand in for those of the same path (see new-experiment)")
         ->type_name("DIR");
+}
+
+void ShaderOptions::declareWatch(CLI::App& parser) {
     parser.add_flag("--watch", isWatching_,
                     "Render again whenever a file of --shaders (default: ./shaders) is saved, until Ctrl-C");
 }

@@ -12,12 +12,15 @@
 
 namespace lavalight {
 
-// Declares --shaders and --watch. Must outlive the parsing; the parser points into it.
+// Declares --shaders. Must outlive the parsing; the parser points into it.
 class ShaderOptions {
   public:
     explicit ShaderOptions(CLI::App& parser);
     ShaderOptions(const ShaderOptions&) = delete;
     ShaderOptions& operator=(const ShaderOptions&) = delete;
+
+    // --watch too.
+    void declareWatch(CLI::App& parser);
 
     [[nodiscard]] bool isWatching() const { return isWatching_; }
     // --shaders, or, to watch, the source tree's own where that is the working folder. Throws UsageError

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -40,6 +41,7 @@ class EstimatorKernels {
         seconds_ = 0.0;
         return std::move(*this);
     }
+    [[nodiscard]] std::span<const gpu::SpecialisationConstant> constants() const { return constants_; }
     // That all of it took.
     [[nodiscard]] double seconds() const { return seconds_; }
 

@@ -50,6 +50,8 @@ class Renderer {
     [[nodiscard]] Rendering rendering() const { return film_.resolve(); }
     [[nodiscard]] const GpuScene& scene() const { return scene_; }
     [[nodiscard]] const WaveRenderer& waves() const { return *waves_; }
+    // Of all bands; bandPixels is left open.
+    [[nodiscard]] const FrameParameters& frame() const { return frame_; }
     [[nodiscard]] const EstimatorKernels& kernels() const { return kernels_; }
     // Hands on the kernels; no sample may be taken any more.
     [[nodiscard]] EstimatorKernels releaseKernels() { return std::move(kernels_).handOn(); }

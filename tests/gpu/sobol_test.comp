@@ -1,11 +1,12 @@
 #version 460
-// The pair and the single number of one pixel's samples, one after another.
+// The pair and the single number of pixels' samples, one after another, pixel by pixel.
 #include "lib/sampler.glsl"
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 1, std430) writeonly buffer Out { uvec4 words[]; };
 layout(push_constant) uniform Push {
-    uint pixel;
+    uint firstPixel;
+    uint samplesEach;
     uint vertex;
 };
 
@@ -13,6 +14,6 @@ void main() {
     const uint i = gl_GlobalInvocationID.x;
     if (i >= words.length())
         return;
-    const SampleKey key = SampleKey(0u, pixel, i, vertex);
+    const SampleKey key = SampleKey(0u, firstPixel + i / samplesEach, i % samplesEach, vertex);
     words[i] = uvec4(sampleBits2D(key, kDimensionBsdf), sampleBits1D(key, kDimensionLobe), 0u);
 }

@@ -1,6 +1,7 @@
 // Sobol's samples are stratified as a (0,2)-sequence must be, scrambled anew for each pixel, and unbiased.
 #include <cmath>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -15,7 +16,8 @@ namespace lavalight::test {
 namespace {
 
 struct Push { // as in the kernel
-    uint32_t pixel;
+    uint32_t firstPixel;
+    uint32_t samplesEach;
     uint32_t vertex;
 };
 
@@ -25,18 +27,22 @@ double unit(uint32_t word) {
 
 class SobolTest : public DeviceTest {
   protected:
-    std::vector<glm::uvec4> samples(uint32_t pixel, size_t count) {
+    std::vector<glm::uvec4> samples(uint32_t pixel, uint32_t count) {
+        return samplesOfPixels(pixel, 1, count);
+    }
+    std::vector<glm::uvec4> samplesOfPixels(uint32_t firstPixel, uint32_t pixels, uint32_t samplesEach) {
         return KernelRunner(device(), test_kernels::find("sobol_test"))
-            .generate<glm::uvec4>(count, Push{pixel, 1});
+            .generate<glm::uvec4>(size_t{pixels} * samplesEach, Push{firstPixel, samplesEach, 1});
     }
     // Mean squared error of the mean of f over `count` samples of many pixels.
     template <typename Function>
     double meanSquaredError(uint32_t count, double exact, const Function& f) {
         constexpr uint32_t pixels = 64;
+        const std::vector<glm::uvec4> all = samplesOfPixels(0, pixels, count);
         double sum = 0.0;
         for (uint32_t pixel = 0; pixel < pixels; ++pixel) {
             double mean = 0.0;
-            for (const glm::uvec4& w : samples(pixel, count))
+            for (const glm::uvec4& w : std::span(all).subspan(size_t{pixel} * count, count))
                 mean += f(unit(w.x), unit(w.y)) / count;
             sum += (mean - exact) * (mean - exact) / pixels;
         }
@@ -73,20 +79,17 @@ TEST_F(SobolTest, SingleNumbersAreStratified) {
 // Pairs and single numbers are padded, not one sequence: together they must look independent.
 TEST_F(SobolTest, DimensionsAreIndependentOfOneAnother) {
     std::vector<uint32_t> counts(16 * 16);
-    for (uint32_t pixel = 0; pixel < 64; ++pixel)
-        for (const glm::uvec4& w : samples(pixel, 1024))
-            ++counts[(w.x >> 28) * 16 + (w.z >> 28)];
+    for (const glm::uvec4& w : samplesOfPixels(0, 64, 1024))
+        ++counts[(w.x >> 28) * 16 + (w.z >> 28)];
     // Strata make the counts more even than chance, never less.
     EXPECT_GT(chiSquareUniform(counts).pValue, kLeastPValue);
 }
 
 TEST_F(SobolTest, PixelsAreDecorrelated) {
     std::vector<uint32_t> counts(16 * 16);
-    for (uint32_t pixel = 0; pixel < 4096; ++pixel) {
-        const auto here = samples(2 * pixel, 1);
-        const auto there = samples(2 * pixel + 1, 1);
-        ++counts[(here[0].x >> 28) * 16 + (there[0].x >> 28)];
-    }
+    const std::vector<glm::uvec4> first = samplesOfPixels(0, 8192, 1);
+    for (size_t pixel = 0; pixel < first.size(); pixel += 2)
+        ++counts[(first[pixel].x >> 28) * 16 + (first[pixel + 1].x >> 28)];
     EXPECT_GT(chiSquareUniform(counts).pValue, kLeastPValue);
 }
 

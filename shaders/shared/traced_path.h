@@ -1,0 +1,31 @@
+// What the kernel trace_path tells of one vertex of a path.
+#ifndef LAVALIGHT_SHARED_TRACED_PATH_H
+#define LAVALIGHT_SHARED_TRACED_PATH_H
+
+#include "shared/types.h"
+
+LAVALIGHT_SHARED_BEGIN
+
+struct TracedVertex {
+    vec3 position; // of the hit; of the direction, where nothing was hit
+    float t;       // distance from the vertex before; infinite: nothing was hit
+    vec3 throughput; // of the path before this vertex
+    uint triangle;   // id, or kNoTriangle
+    vec3 emitted; // what the pixel got from this vertex's own light, or the environment's
+    uint material;
+    vec3 direct; // what NEE brings if its shadow ray arrives
+    uint flags;  // kTraced...
+    vec3 direction; // in which the path goes on, or would have but for roulette; else 0
+    float pdf;      // of it, per solid angle, as MIS takes it; 0: delta lobe
+    float survival; // probability that roulette left it; 1: there was none
+    uint unused[3];
+};
+SHARED_CONST uint kTracedShadowRay = 1u; // NEE sent one
+SHARED_CONST uint kTracedOccluded = 2u;  // and something was in its way
+SHARED_CONST uint kTracedGoesOn = 4u;
+SHARED_CONST uint kTracedCut = 8u; // ended by --max-bounces
+SHARED_CONST uint kTracedFront = 16u; // the front of the triangle was hit
+
+LAVALIGHT_SHARED_END
+
+#endif
