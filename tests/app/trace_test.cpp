@@ -86,17 +86,17 @@ TEST_F(Trace, EveryVertexSaysHowThePathWentOn) {
 TEST_F(Trace, RouletteIsToldWithItsProbability) {
     uint32_t killed = 0;
     uint32_t survived = 0;
-    for (uint32_t sample = 0; sample < 8; ++sample)
-        for (const json& vertex :
-             trace({"cornell-box", "--pixel", "8,8", "--size", "16x16", "--roulette", "constant",
-                    "--roulette-start", "1", "--sample", std::to_string(sample)})
-                 .at("vertices")) {
-            killed += vertex.at("fate") == "killed by roulette" ? 1 : 0;
-            survived += vertex.at("fate") == "goes on" ? 1 : 0;
-            EXPECT_EQ(vertex.at("survival"),
-                      vertex.at("fate") == "killed by roulette" || vertex.at("fate") == "goes on" ? 0.5
-                                                                                                  : 1.0);
+    for (uint32_t sample = 0; sample < 8; ++sample) {
+        const json path = trace({"cornell-box", "--pixel", "8,8", "--size", "16x16", "--roulette", "constant",
+                                 "--roulette-start", "1", "--sample", std::to_string(sample)});
+        for (const json& vertex : path.at("vertices")) {
+            const std::string fate = vertex.at("fate");
+            killed += fate == "killed by roulette" ? 1 : 0;
+            survived += fate == "goes on" ? 1 : 0;
+            const bool wasAsked = fate == "killed by roulette" || fate == "goes on";
+            EXPECT_EQ(vertex.at("survival"), wasAsked ? 0.5 : 1.0) << fate;
         }
+    }
     EXPECT_GT(killed, 0u);
     EXPECT_GT(survived, 0u);
 }
