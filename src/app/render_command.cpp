@@ -165,10 +165,10 @@ struct RenderCommand::Session {
 };
 
 struct RenderCommand::Take {
+    Stopwatch watch{};
     Scene scene;
     std::unique_ptr<Renderer> renderer{};
     RenderReport report{};
-    Stopwatch watch{};
     std::optional<double>
         toFirstSamples{}; // seconds from the start of the process to the end of the first wave
 };
@@ -250,7 +250,8 @@ int RenderCommand::runWatching(Session& session) const {
 }
 
 RenderCommand::Take RenderCommand::prepare(const ImportOptions& moment, Session& session) const {
-    Take take{loadLit(scene_, moment, session.settings)};
+    Take take;
+    take.scene = loadLit(scene_, moment, session.settings);
     take.report.import = moment;
     const Camera camera = session.view(take.scene, options_);
     take.report.camera = camera.name;
