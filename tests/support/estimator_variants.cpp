@@ -15,7 +15,7 @@ namespace {
 using Change = std::function<void(EstimatorSettings&)>;
 
 constexpr uint32_t kSide = 32;
-constexpr uint32_t kMaxBounces = 5; // of all that is compared: without roulette, paths would run on to 64
+constexpr uint32_t kMaxBounces = 4; // of all that is compared: without roulette, paths would run on to 64
 
 // One value of one setting; an empty option is the default.
 struct Choice {
