@@ -45,10 +45,7 @@ int LabCommand::run() {
     const Experiment& experiment = findExperiment(experiment_);
     gpu::Device device(device_);
     const std::vector<Table> tables = runExperiment(experiment, device, options_);
-    const std::vector<std::string> messages = device.validationMessages();
-    if (!messages.empty())
-        throw Error(fmt::format("the validation layer has {} messages, the first: {}", messages.size(),
-                                messages.front()));
+    device.requireNoValidationMessages();
     print(experiment, device, tables);
     return 0;
 }

@@ -64,13 +64,6 @@ uint64_t totalOf(const std::vector<uint32_t>& counts) {
     return total;
 }
 
-void failOnValidation(const gpu::Device& device) {
-    const std::vector<std::string> messages = device.validationMessages();
-    if (!messages.empty())
-        throw Error(fmt::format("the validation layer has {} messages, the first: {}", messages.size(),
-                                messages.front()));
-}
-
 void fillInputs(RenderReport& report, const Scene& scene, const RenderSettings& settings) {
     report.settings = settings;
     report.scene = scene.source;
@@ -158,9 +151,9 @@ struct RenderCommand::Session {
     }
 
     // Shaders as they are now, for the kernels to come and for the record.
-    void use(const ShaderOverlay& overlay) {
-        settings.changedShaders = overlay.changed();
-        source = [overlay](std::string_view name) { return overlay.kernel(name); };
+    void use(const std::shared_ptr<ShaderOverlay>& overlay) {
+        settings.changedShaders = overlay->changed();
+        source = sourceOf(overlay);
     }
 };
 
@@ -201,7 +194,7 @@ int RenderCommand::run() {
         outputs_.exr = std::filesystem::path(scene_).stem().string() + ".exr";
     Session session{options_.settings()};
     if (const auto overlay = shaders_.overlay())
-        session.use(*overlay);
+        session.use(overlay);
     if (sequence_.isAsked() && shaders_.isWatching())
         throw UsageError("--watch renders one image over and over, --frames several: give one of them");
     if (sequence_.isAsked())
@@ -224,27 +217,31 @@ int RenderCommand::runSequence(Session& session) const {
     return 0;
 }
 
-// Until Ctrl-C. A save ends a render that is under way; one that does not compile leaves the last image.
+// Until Ctrl-C. A save that changes a kernel ends the render that is under way; any other leaves it alone.
 int RenderCommand::runWatching(Session& session) const {
     FileWatch saves(shaders_.folder());
     Take take = prepare(sceneOptions_.importOptions(), session);
     const InterruptGuard guard;
+    std::shared_ptr<ShaderOverlay> next;
+    const auto look = [&](std::chrono::milliseconds atMost) {
+        const std::vector<std::string> changes = saves.wait(atMost);
+        next = changes.empty() ? nullptr : shaders_.reread(changes, *take.renderer);
+    };
     while (!guard.interrupted()) {
-        std::vector<std::string> changes;
         takeSamples(take, [&] {
-            changes = saves.wait(std::chrono::milliseconds(0));
-            return changes.empty() && !guard.interrupted();
+            look(std::chrono::milliseconds(0));
+            return !next && !guard.interrupted();
         });
-        if (changes.empty())
+        if (!next)
             write(take, outputs_, session);
-        while (!guard.interrupted()) {
-            if (!changes.empty() && shaders_.reload(changes, *take.renderer)) {
-                session.use(*shaders_.overlay());
-                break;
-            }
-            changes = saves.wait(std::chrono::hours(1));
+        while (!next && !guard.interrupted())
+            look(std::chrono::hours(1));
+        if (next) {
+            take.watch = Stopwatch();
+            session.use(next);
+            take.renderer->reloadKernels(session.source);
+            spdlog::info("compiled in {:.2f} s", take.watch.lap("prepare"));
         }
-        take.watch = Stopwatch();
     }
     return kInterrupted;
 }
@@ -276,7 +273,7 @@ void RenderCommand::takeSamples(Take& take, const std::function<bool()>& mayGoOn
 }
 
 void RenderCommand::write(Take& take, const Outputs& files, Session& session) const {
-    failOnValidation(*session.device);
+    session.device->requireNoValidationMessages();
     RenderReport& report = take.report;
     fillInputs(report, take.scene, take.renderer->settings());
     report.settings.changedShaders = session.settings.changedShaders;

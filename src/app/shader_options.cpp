@@ -1,6 +1,5 @@
 #include "app/shader_options.h"
 
-#include <chrono>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -37,34 +36,31 @@ std::string ShaderOptions::folder() const {
     return kOwnFolder;
 }
 
-std::optional<ShaderOverlay> ShaderOptions::overlay() const {
+std::shared_ptr<ShaderOverlay> ShaderOptions::overlay() const {
     const std::string where = folder();
     if (where.empty())
-        return std::nullopt;
-    ShaderOverlay overlay(where);
-    for (const std::string& path : overlay.unused())
+        return nullptr;
+    auto overlay = std::make_shared<ShaderOverlay>(where);
+    for (const std::string& path : overlay->unused())
         spdlog::warn("{}/{}: no kernel includes a file of that path", where, path);
     return overlay;
 }
 
-bool ShaderOptions::reload(const std::vector<std::string>& changes, Renderer& renderer) const {
-    const auto start = std::chrono::steady_clock::now();
+std::shared_ptr<ShaderOverlay> ShaderOptions::reread(const std::vector<std::string>& changes,
+                                                     const Renderer& renderer) const {
     spdlog::info("saved: {}", fmt::join(changes, ", "));
     try {
-        const ShaderOverlay now = overlay().value();
-        const std::vector<std::string> names =
-            renderer.reloadKernels([&](std::string_view name) { return now.kernel(name); });
-        const double seconds =
-            std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-        if (names.empty())
-            spdlog::info("no kernel has changed");
-        else
-            spdlog::info("compiled {} in {:.2f} s", fmt::join(names, ", "), seconds);
-        return !names.empty();
+        std::shared_ptr<ShaderOverlay> now = overlay();
+        const std::vector<std::string> names = renderer.changedKernels(sourceOf(now));
+        if (!names.empty()) {
+            spdlog::info("changed: {}", fmt::join(names, ", "));
+            return now;
+        }
+        spdlog::info("no kernel has changed");
     } catch (const Error& error) {
         spdlog::error("{}\nthe kernels from before go on", error.what());
-        return false;
     }
+    return nullptr;
 }
 
 } // namespace lavalight

@@ -1,7 +1,7 @@
 // Shaders that the user changed, and watching them change.
 #pragma once
 
-#include <optional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -26,13 +26,14 @@ class ShaderOptions {
     // --shaders, or, to watch, the source tree's own where that is the working folder. Throws UsageError
     // where there is neither.
     [[nodiscard]] std::string folder() const;
-    // The folder as it is now; none where none was asked for. Warns of files that nothing includes. Throws
-    // as ShaderOverlay does.
-    [[nodiscard]] std::optional<ShaderOverlay> overlay() const;
+    // The folder as it is now; null where none was asked for. Warns of files that nothing includes. Throws as
+    // ShaderOverlay does.
+    [[nodiscard]] std::shared_ptr<ShaderOverlay> overlay() const;
 
-    // After the files `changes` were saved: whether the renderer has new kernels and is to start anew. Tells
-    // on stderr what changed; what does not compile is told there, too, and leaves the renderer as it was.
-    [[nodiscard]] bool reload(const std::vector<std::string>& changes, Renderer& renderer) const;
+    // The folder once the files `changes` are saved; null unless they give the renderer other kernels. Tells
+    // on stderr what changed, and what does not compile.
+    [[nodiscard]] std::shared_ptr<ShaderOverlay> reread(const std::vector<std::string>& changes,
+                                                        const Renderer& renderer) const;
 
   private:
     std::string folder_;

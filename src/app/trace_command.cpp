@@ -85,12 +85,11 @@ int TraceCommand::run() {
     settings = resolveSize(settings, camera);
     checkSettings(settings);
     const glm::uvec2 pixel = pixelIn(settings);
-    KernelSource source = embeddedKernel;
-    if (const auto overlay = shaders_.overlay())
-        source = [overlay](std::string_view name) { return overlay->kernel(name); };
+    const KernelSource source = sourceOf(shaders_.overlay());
     gpu::Device device(options_.device());
     const Renderer renderer(device, scene, camera, settings, source);
     const TracedPath path = tracePath(device, renderer, pixel, sample_, source);
+    device.requireNoValidationMessages();
 
     Json json;
     json["scene"] = scene.source;

@@ -158,6 +158,13 @@ std::vector<std::string> Device::validationMessages() const {
     return messages_->lines;
 }
 
+void Device::requireNoValidationMessages() const {
+    const std::vector<std::string> messages = validationMessages();
+    if (!messages.empty())
+        throw Error(fmt::format("the validation layer has {} messages, the first: {}", messages.size(),
+                                messages.front()));
+}
+
 MemoryReservation Device::reserve(uint64_t bytes, std::string_view object) {
     if (allocatedBytes_ + bytes > limits_.memoryBytes)
         throw Error(fmt::format("{} needs {:.1f} MiB, but {} has {:.1f} MiB with {:.1f} MiB in use; "

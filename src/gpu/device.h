@@ -77,6 +77,8 @@ class Device {
     [[nodiscard]] const DeviceLimits& limits() const { return limits_; }
     // What the validation layer said so far, oldest first. Empty without `validate`.
     [[nodiscard]] std::vector<std::string> validationMessages() const;
+    // Throws Error with the first of them, if there is any.
+    void requireNoValidationMessages() const;
 
     // Bytes of the buffers alive now, and the most there ever were.
     [[nodiscard]] uint64_t allocatedBytes() const { return allocatedBytes_; }

@@ -50,22 +50,22 @@ EstimatorKernels::EstimatorKernels(gpu::Device& device, Kernels kernels, const E
     seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-std::vector<std::string> EstimatorKernels::reload(gpu::Device& device, const FrameParameters& frame,
-                                                  const KernelSource& source) {
+std::vector<std::string> EstimatorKernels::changed(const KernelSource& source) const {
+    std::vector<std::string> names;
+    for (const auto& [name, kernel] : kernels_)
+        if (source(name).spirv != kernel.code().spirv)
+            names.push_back(name);
+    return names;
+}
+
+void EstimatorKernels::reload(gpu::Device& device, const FrameParameters& frame, const KernelSource& source) {
     std::map<std::string, gpu::Kernel, std::less<>> fresh;
     std::vector<const gpu::Kernel*> made;
-    for (const auto& [name, kernel] : kernels_) {
-        gpu::KernelCode code = source(name);
-        if (code.spirv != kernel.code().spirv)
-            made.push_back(&fresh.try_emplace(name, device, std::move(code), constants_).first->second);
-    }
+    for (const std::string& name : changed(source))
+        made.push_back(&fresh.try_emplace(name, device, source(name), constants_).first->second);
     gpu::warmUp(device, made, std::as_bytes(std::span(&frame, 1)));
-    std::vector<std::string> names;
-    for (auto& [name, kernel] : fresh) {
-        names.push_back(name);
+    for (auto& [name, kernel] : fresh)
         kernels_.insert_or_assign(name, std::move(kernel));
-    }
-    return names;
 }
 
 bool EstimatorKernels::serve(Kernels kernels, const EstimatorSettings& settings, uint32_t features) const {

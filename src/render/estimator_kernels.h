@@ -27,10 +27,11 @@ class EstimatorKernels {
     EstimatorKernels(gpu::Device& device, Kernels kernels, const EstimatorSettings& settings,
                      uint32_t features, const FrameParameters& frame, const KernelSource& source);
 
-    // Compiles those anew whose code `source` changes, and returns their names; what was bound to them must
-    // be bound anew. Throws Error as `source` does, with every kernel as it was.
-    std::vector<std::string> reload(gpu::Device& device, const FrameParameters& frame,
-                                    const KernelSource& source);
+    // Names of those whose code `source` changes. Throws Error as `source` does.
+    [[nodiscard]] std::vector<std::string> changed(const KernelSource& source) const;
+    // Compiles those anew; what was bound to them must be bound anew. Throws Error with every kernel as it
+    // was.
+    void reload(gpu::Device& device, const FrameParameters& frame, const KernelSource& source);
 
     // The kernel must be one of that way.
     [[nodiscard]] const gpu::Kernel& operator[](std::string_view name) const;

@@ -164,21 +164,26 @@ Renderer::Renderer(gpu::Device& device, const RenderSettings& settings, Setup se
     settings_.estimator.lightSelection = setup.lightSelection;
 }
 
-std::vector<std::string> Renderer::reloadKernels(const KernelSource& source) {
-    std::optional<AlbedoTable> table;
-    if (!scene_.albedoTable().spirv.empty())
-        if (gpu::KernelCode code = source("albedo"); code.spirv != scene_.albedoTable().spirv)
-            table = makeAlbedoTable(*device_, std::move(code));
-    std::vector<std::string> names = kernels_.reload(*device_, frame_, source);
-    if (table) {
+std::vector<std::string> Renderer::changedKernels(const KernelSource& source) const {
+    std::vector<std::string> names = kernels_.changed(source);
+    const std::vector<uint32_t>& albedo = scene_.albedoTable().spirv;
+    if (!albedo.empty() && source("albedo").spirv != albedo)
         names.emplace_back("albedo");
+    return names;
+}
+
+void Renderer::reloadKernels(const KernelSource& source) {
+    const std::vector<std::string> names = changedKernels(source);
+    std::optional<AlbedoTable> table;
+    if (std::find(names.begin(), names.end(), "albedo") != names.end())
+        table = makeAlbedoTable(*device_, source("albedo"));
+    kernels_.reload(*device_, frame_, source);
+    if (table)
         scene_.setAlbedoTable(std::move(*table));
-    }
     film_.clear();
     pathsDone_ = 0;
     isOutOfTime_ = false;
     waves_ = makeWaveRenderer(*device_, settings_.kernels, {scene_, film_, frame_, kernels_});
-    return names;
 }
 
 StopReason Renderer::render(const KeepGoing& keepGoing) {

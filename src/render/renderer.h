@@ -42,9 +42,11 @@ class Renderer {
     // each pixel knows how many samples it has.
     StopReason render(const KeepGoing& keepGoing);
 
-    // Goes on with kernels whose code has changed, and an empty film; returns the names of those kernels.
-    // Throws Error where one does not compile: then nothing has changed.
-    std::vector<std::string> reloadKernels(const KernelSource& source);
+    // Names of the kernels whose code is another by `source`. Throws Error where one does not compile. May be
+    // asked while it renders.
+    [[nodiscard]] std::vector<std::string> changedKernels(const KernelSource& source) const;
+    // Goes on with those kernels, and an empty film. Throws Error as above: then nothing has changed.
+    void reloadKernels(const KernelSource& source);
 
     [[nodiscard]] const Film& film() const { return film_; }
     [[nodiscard]] Rendering rendering() const { return film_.resolve(); }

@@ -4,13 +4,13 @@
 #include <regex>
 #include <set>
 #include <span>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "base/embedded_file.h"
 #include "base/error.h"
 #include "base/file.h"
-#include "render/kernel_source.h"
 
 namespace lavalight {
 
@@ -95,7 +95,7 @@ std::vector<std::string> ShaderOverlay::filesOf(const std::string& kernelPath) c
     return files;
 }
 
-gpu::KernelCode ShaderOverlay::kernel(std::string_view name) const {
+gpu::KernelCode ShaderOverlay::compile(std::string_view name) const {
     const std::string path = kernelPath(name);
     const std::vector<std::string> files = filesOf(path);
     if (std::none_of(files.begin(), files.end(), [&](const auto& file) { return texts_.contains(file); }))
@@ -104,6 +104,12 @@ gpu::KernelCode ShaderOverlay::kernel(std::string_view name) const {
     if (!source)
         throw Error(fmt::format("there is no kernel {}", path));
     return gpu::compileKernel(*source, [this](const std::string& included) { return find(included); });
+}
+
+const gpu::KernelCode& ShaderOverlay::kernel(std::string_view name) {
+    const auto known = kernels_.find(name);
+    return known != kernels_.end() ? known->second
+                                   : kernels_.emplace(std::string(name), compile(name)).first->second;
 }
 
 std::vector<std::string> ShaderOverlay::changed() const {
@@ -122,6 +128,12 @@ std::vector<std::string> ShaderOverlay::unused() const {
     std::vector<std::string> paths = changed();
     std::erase_if(paths, [&](const std::string& path) { return used.contains(path); });
     return paths;
+}
+
+KernelSource sourceOf(std::shared_ptr<ShaderOverlay> overlay) {
+    if (!overlay)
+        return embeddedKernel;
+    return [overlay = std::move(overlay)](std::string_view name) { return overlay->kernel(name); };
 }
 
 } // namespace lavalight

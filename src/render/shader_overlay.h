@@ -2,13 +2,16 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "gpu/shader_build.h"
+#include "render/kernel_source.h"
 
 namespace lavalight {
 
@@ -23,9 +26,9 @@ class ShaderOverlay {
     // it.
     explicit ShaderOverlay(const std::filesystem::path& folder);
 
-    // Compiled anew where one of the kernel's files is changed, else the embedded one. Throws Error with the
-    // compiler's message.
-    [[nodiscard]] gpu::KernelCode kernel(std::string_view name) const;
+    // Compiled anew, once, where one of the kernel's files is changed, else the embedded one. Throws Error
+    // with the compiler's message.
+    [[nodiscard]] const gpu::KernelCode& kernel(std::string_view name);
 
     // Paths of the files that differ from ours or are new, ascending.
     [[nodiscard]] std::vector<std::string> changed() const;
@@ -35,8 +38,13 @@ class ShaderOverlay {
   private:
     [[nodiscard]] std::optional<gpu::ShaderText> find(const std::string& path) const;
     [[nodiscard]] std::vector<std::string> filesOf(const std::string& kernelPath) const;
+    [[nodiscard]] gpu::KernelCode compile(std::string_view name) const;
 
-    std::map<std::string, gpu::ShaderText> texts_; // of the changed files
+    std::map<std::string, gpu::ShaderText> texts_;                // of the changed files
+    std::map<std::string, gpu::KernelCode, std::less<>> kernels_; // that were asked for
 };
+
+// Kernels with the overlay's changes; the embedded ones without an overlay.
+[[nodiscard]] KernelSource sourceOf(std::shared_ptr<ShaderOverlay> overlay);
 
 } // namespace lavalight

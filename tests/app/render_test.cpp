@@ -9,8 +9,8 @@
 #include "base/file.h"
 #include "image/exr.h"
 #include "support/environment_variable.h"
-#include "support/running_program.h"
 #include "support/run_program.h"
+#include "support/running_program.h"
 #include "support/temporary_folder.h"
 
 namespace lavalight {
@@ -19,8 +19,8 @@ namespace {
 using nlohmann::json;
 using test::EnvironmentVariable;
 using test::ProgramResult;
-using test::RunningProgram;
 using test::runLavalight;
+using test::RunningProgram;
 using test::TemporaryFolder;
 
 class Render : public testing::Test {

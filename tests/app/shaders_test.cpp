@@ -111,7 +111,32 @@ TEST_F(Shaders, EverySaveRendersAgainUnlessItIsBroken) {
 
     const ProgramResult result = program.interrupt();
     EXPECT_EQ(result.exitCode, 130);
-    EXPECT_NE(result.err.find("compiled path"), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find("changed: path"), std::string::npos) << result.err;
+}
+
+// The first image takes seconds; meanwhile there come a note, a broken shader, and a sound one.
+TEST_F(Shaders, ARenderUnderWayIsEndedByOtherKernelsAlone) {
+    experiment("// Russian", "// Russian");
+    std::vector<std::string> words = renderInto("mine.exr", {"--shaders", "mine", "--watch", "--time", "4"});
+    std::erase_if(words, [](const std::string& word) { return word == "--spp" || word == "2"; });
+    RunningProgram program(words, folder_.path());
+    program.waitUntilItCatchesInterrupts();
+    std::ofstream(folder_ / "mine/notes.md") << "a note";
+    ASSERT_TRUE(program.waitForText("no kernel has changed")) << program.interrupt().err;
+    experiment(kCap, "kMaxSurvival = ;");
+    ASSERT_TRUE(program.waitForText("mine/lib/roulette.glsl:6")) << program.interrupt().err;
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "mine.exr")) << "the machine is too slow for this test";
+    ASSERT_TRUE(program.waitForText("samples per pixel", 1)) << "the render did not go on";
+    EXPECT_EQ(header("mine.exr", "option:shaders"), "");
+
+    experiment("kMaxSurvival = ;", "kMaxSurvival = 0.3");
+    ASSERT_TRUE(program.waitForText("changed: path")) << program.interrupt().err;
+    experiment("kMaxSurvival = 0.3", "kMaxSurvival = 0.2");
+    ASSERT_TRUE(program.waitForText("changed: path", 2)) << program.interrupt().err;
+    ASSERT_TRUE(program.waitForText("samples per pixel", 2));
+    const ProgramResult result = program.interrupt();
+    EXPECT_EQ(result.exitCode, 130);
+    EXPECT_EQ(header("mine.exr", "option:shaders"), "lib/roulette.glsl");
 }
 
 } // namespace

@@ -100,12 +100,17 @@ bool RunningProgram::waitForText(const std::string& text, int times) {
     }
 }
 
+void RunningProgram::waitUntilItCatchesInterrupts() {
+    while (!hasEnded() && !catches(process_, SIGINT))
+        std::this_thread::sleep_for(kTurn);
+}
+
 ProgramResult RunningProgram::interrupt() {
-    for (bool isInterrupted = false; !hasEnded(); std::this_thread::sleep_for(kTurn))
-        if (!isInterrupted && catches(process_, SIGINT)) {
-            ::kill(process_, SIGINT);
-            isInterrupted = true;
-        }
+    waitUntilItCatchesInterrupts();
+    if (!hasEnded())
+        ::kill(process_, SIGINT);
+    while (!hasEnded())
+        std::this_thread::sleep_for(kTurn);
     return result();
 }
 

@@ -25,7 +25,9 @@ class RunningProgram {
     // Waits until it has written that text to stdout or stderr, `times` times in all; false if it ends
     // before.
     [[nodiscard]] bool waitForText(const std::string& text, int times = 1);
-    // Sends SIGINT as soon as the program catches it, which it does while it renders, and waits for the end.
+    // Which it does while it renders.
+    void waitUntilItCatchesInterrupts();
+    // Sends SIGINT as soon as the program catches it, and waits for the end.
     [[nodiscard]] ProgramResult interrupt();
 
   private:
