@@ -50,42 +50,6 @@ class Stopwatch {
     StageTimes stages_;
 };
 
-glm::dvec3 meanOf(const Image& image) {
-    glm::dvec3 sum(0.0);
-    for (const glm::vec3& pixel : image.pixels)
-        sum += glm::dvec3(pixel);
-    return sum / static_cast<double>(image.pixels.size());
-}
-
-uint64_t totalOf(const std::vector<uint32_t>& counts) {
-    uint64_t total = 0;
-    for (const uint32_t count : counts)
-        total += count;
-    return total;
-}
-
-void fillInputs(RenderReport& report, const Scene& scene, const RenderSettings& settings) {
-    report.settings = settings;
-    report.scene = scene.source;
-    report.triangles = scene.triangleCount();
-    report.warnings = scene.warnings;
-}
-
-void fillResults(RenderReport& report, const Renderer& renderer, const gpu::Device& device,
-                 const Rendering& rendering) {
-    report.device = device.description();
-    report.kernels = renderer.waves().kernelTimes();
-    report.rays = renderer.waves().rays();
-    report.tallies = renderer.film().readTallies();
-    report.sceneBytes = renderer.scene().bytes();
-    report.peakDeviceBytes = device.peakAllocatedBytes();
-    report.samples = totalOf(rendering.sampleCounts);
-    report.meanRadiance = meanOf(rendering.radiance);
-    const glm::dvec3 variance = meanOf(rendering.variance);
-    report.meanVariance = (variance.x + variance.y + variance.z) / 3.0;
-    report.errorEstimate = errorEstimate(rendering);
-}
-
 void printSummary(const RenderReport& report) {
     fmt::print(
         "{}: {}x{}, {} samples per pixel in {:.2f} s on {} ({:.2f} M samples/s, {:.2f} M rays/s), bias "
@@ -276,8 +240,7 @@ void RenderCommand::write(Take& take, const Outputs& files, Session& session) co
     fillInputs(report, take.scene, take.renderer->settings());
     report.settings.changedShaders = session.settings.changedShaders;
     const Rendering rendering = take.renderer->rendering();
-    fillResults(report, *take.renderer, *session.device, rendering);
-    report.ledger = makeLedger(take.scene, report.settings, report.tallies, report.stop);
+    fillResults(report, *take.renderer, *session.device, rendering, take.scene);
     if (!files.exr.empty())
         writeExr(files.exr, rendering, exrMetadata(report));
     if (!files.png.empty()) {

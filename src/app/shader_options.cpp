@@ -13,6 +13,10 @@ namespace {
 
 constexpr const char* kOwnFolder = "shaders"; // of the source tree
 
+bool isInSourceTree() {
+    return std::filesystem::is_regular_file(std::filesystem::path(kOwnFolder) / "kernels/path.comp");
+}
+
 } // namespace
 
 ShaderOptions::ShaderOptions(CLI::App& parser) {
@@ -27,10 +31,14 @@ void ShaderOptions::declareWatch(CLI::App& parser) {
                     "Render again whenever a file of --shaders (default: ./shaders) is saved, until Ctrl-C");
 }
 
+void ShaderOptions::watchIfThere() {
+    isWatching_ = isWatching_ || !folder_.empty() || isInSourceTree();
+}
+
 std::string ShaderOptions::folder() const {
     if (!folder_.empty() || !isWatching_)
         return folder_;
-    if (!std::filesystem::is_regular_file(std::filesystem::path(kOwnFolder) / "kernels/path.comp"))
+    if (!isInSourceTree())
         throw UsageError("--watch: there is no folder of shaders here; give --shaders DIR (lavalight "
                          "new-experiment makes one)");
     return kOwnFolder;

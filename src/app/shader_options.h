@@ -23,6 +23,8 @@ class ShaderOptions {
     // --watch too.
     void declareWatch(CLI::App& parser);
 
+    // As if --watch was given, where there is a folder to watch.
+    void watchIfThere();
     [[nodiscard]] bool isWatching() const { return isWatching_; }
     // --shaders, or, to watch, the source tree's own where that is the working folder. Throws UsageError
     // where there is neither.

@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "render/path_trace.h"
+#include "render/traced_fate.h"
 
 namespace lavalight {
 namespace {
@@ -18,17 +19,6 @@ using Json = nlohmann::ordered_json;
 
 Json list(const glm::vec3& v) {
     return {v.x, v.y, v.z};
-}
-
-// How the path went on, or why it did not.
-const char* fateOf(const TracedVertex& vertex) {
-    if ((vertex.flags & kTracedGoesOn) != 0)
-        return "goes on";
-    if (std::isinf(vertex.t))
-        return "left the scene";
-    if ((vertex.flags & kTracedCut) != 0)
-        return "cut by --max-bounces";
-    return vertex.survival < 1.0f ? "killed by roulette" : "absorbed";
 }
 
 Json vertexJson(const TracedVertex& vertex, uint32_t number, const Scene& scene) {

@@ -1,8 +1,6 @@
 #include "gpu/device.h"
 
 #include <algorithm>
-#include <array>
-#include <mutex>
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -12,72 +10,7 @@
 
 namespace lavalight::gpu {
 
-// Written by the validation layer from whichever thread makes the call.
-struct Device::MessageLog {
-    std::mutex mutex;
-    std::vector<std::string> lines;
-
-    static VKAPI_ATTR VkBool32 VKAPI_CALL append(VkDebugUtilsMessageSeverityFlagBitsEXT,
-                                                 VkDebugUtilsMessageTypeFlagsEXT,
-                                                 const VkDebugUtilsMessengerCallbackDataEXT* data,
-                                                 void* user) {
-        auto* log = static_cast<MessageLog*>(user);
-        const std::lock_guard lock(log->mutex);
-        log->lines.emplace_back(data->pMessage);
-        return VK_FALSE;
-    }
-};
-
 namespace {
-
-constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
-
-vk::raii::Context makeContext() {
-    try {
-        return vk::raii::Context();
-    } catch (const std::exception& error) {
-        throw Error(
-            fmt::format("cannot load Vulkan: {}; Debian's packages are libvulkan1 and mesa-vulkan-drivers",
-                        error.what()));
-    }
-}
-
-void requireValidationLayer(const vk::raii::Context& context) {
-    for (const vk::LayerProperties& layer : context.enumerateInstanceLayerProperties())
-        if (std::string_view(layer.layerName.data()) == kValidationLayer)
-            return;
-    throw Error(fmt::format("cannot validate: the layer {} is not installed; Debian's package is "
-                            "vulkan-validationlayers",
-                            kValidationLayer));
-}
-
-vk::raii::Instance makeInstance(const vk::raii::Context& context, bool validate) {
-    const vk::ApplicationInfo application("lavalight", 1, nullptr, 0, VK_API_VERSION_1_2);
-    const std::array enabled = {vk::ValidationFeatureEnableEXT::eSynchronizationValidation};
-    const vk::ValidationFeaturesEXT features(enabled);
-    const std::array layers = {kValidationLayer};
-    const std::array extensions = {VK_EXT_DEBUG_UTILS_EXTENSION_NAME};
-    vk::InstanceCreateInfo info({}, &application);
-    if (validate) {
-        requireValidationLayer(context);
-        info.setPEnabledLayerNames(layers);
-        info.setPEnabledExtensionNames(extensions);
-        info.setPNext(&features);
-    }
-    const auto create = [&] { return vk::raii::Instance(context, info); };
-    return checked(
-        "create",
-        "the Vulkan instance (is a driver installed? Debian's mesa-vulkan-drivers has one for CPUs)", create);
-}
-
-std::vector<vk::raii::PhysicalDevice> physicalDevices(const vk::raii::Instance& instance) {
-    return checked("list", "the Vulkan devices", [&] {
-        std::vector<vk::raii::PhysicalDevice> list;
-        for (auto& device : vk::raii::PhysicalDevices(instance))
-            list.push_back(std::move(device));
-        return list;
-    });
-}
 
 std::vector<DeviceDescription> describeAll(const std::vector<vk::raii::PhysicalDevice>& devices) {
     std::vector<DeviceDescription> descriptions;
@@ -112,30 +45,12 @@ DeviceLimits readLimits(const vk::raii::PhysicalDevice& physical, uint32_t queue
 
 } // namespace
 
-void throwVulkanError(std::string_view operation, std::string_view object, const char* reason) {
-    throw Error(fmt::format("cannot {} {}: {}", operation, object, reason));
-}
-
 std::vector<DeviceDescription> listDevices() {
-    const vk::raii::Context context = makeContext();
-    const vk::raii::Instance instance = makeInstance(context, false);
-    return describeAll(physicalDevices(instance));
+    return describeAll(Instance(false).physicalDevices());
 }
 
-Device::Device(const DeviceConfig& config)
-    : context_(makeContext()), messages_(std::make_unique<MessageLog>()),
-      instance_(makeInstance(context_, config.validate)) {
-    if (config.validate) {
-        using Severity = vk::DebugUtilsMessageSeverityFlagBitsEXT;
-        using Type = vk::DebugUtilsMessageTypeFlagBitsEXT;
-        messenger_ = vk::raii::DebugUtilsMessengerEXT(
-            instance_, {{},
-                        Severity::eError | Severity::eWarning,
-                        Type::eGeneral | Type::eValidation | Type::ePerformance,
-                        &MessageLog::append,
-                        messages_.get()});
-    }
-    std::vector<vk::raii::PhysicalDevice> devices = physicalDevices(instance_);
+Device::Device(const DeviceConfig& config) : instance_(config.validate) {
+    std::vector<vk::raii::PhysicalDevice> devices = instance_.physicalDevices();
     const std::vector<DeviceDescription> descriptions = describeAll(devices);
     const uint32_t chosen = chooseDevice(descriptions, config);
     description_ = descriptions[chosen];
@@ -152,18 +67,6 @@ Device::Device(const DeviceConfig& config)
 }
 
 Device::~Device() = default;
-
-std::vector<std::string> Device::validationMessages() const {
-    const std::lock_guard lock(messages_->mutex);
-    return messages_->lines;
-}
-
-void Device::requireNoValidationMessages() const {
-    const std::vector<std::string> messages = validationMessages();
-    if (!messages.empty())
-        throw Error(fmt::format("the validation layer has {} messages, the first: {}", messages.size(),
-                                messages.front()));
-}
 
 MemoryReservation Device::reserve(uint64_t bytes, std::string_view object) {
     if (allocatedBytes_ + bytes > limits_.memoryBytes)

@@ -1,14 +1,16 @@
-// Vulkan instance and device: choice with reasons, limits, validation messages, memory accounting.
+// The Vulkan device: choice with reasons, limits, memory accounting.
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include <vulkan/vulkan_raii.hpp>
+
+#include "gpu/instance.h"
+#include "gpu/vulkan_error.h"
 
 namespace lavalight::gpu {
 
@@ -75,10 +77,11 @@ class Device {
 
     [[nodiscard]] const DeviceDescription& description() const { return description_; }
     [[nodiscard]] const DeviceLimits& limits() const { return limits_; }
-    // What the validation layer said so far, oldest first. Empty without `validate`.
-    [[nodiscard]] std::vector<std::string> validationMessages() const;
-    // Throws Error with the first of them, if there is any.
-    void requireNoValidationMessages() const;
+    // As Instance has them.
+    [[nodiscard]] std::vector<std::string> validationMessages() const {
+        return instance_.validationMessages();
+    }
+    void requireNoValidationMessages() const { instance_.requireNoValidationMessages(); }
 
     // Bytes of the buffers alive now, and the most there ever were.
     [[nodiscard]] uint64_t allocatedBytes() const { return allocatedBytes_; }
@@ -94,12 +97,7 @@ class Device {
     [[nodiscard]] uint32_t findMemoryType(uint32_t typeBits, vk::MemoryPropertyFlags flags) const;
 
   private:
-    struct MessageLog;
-
-    vk::raii::Context context_;
-    std::unique_ptr<MessageLog> messages_; // at a fixed address: the messenger's callback writes to it
-    vk::raii::Instance instance_ = nullptr;
-    vk::raii::DebugUtilsMessengerEXT messenger_ = nullptr;
+    Instance instance_;
     vk::raii::PhysicalDevice physical_ = nullptr;
     vk::raii::Device device_ = nullptr;
     vk::raii::Queue queue_ = nullptr;
@@ -110,17 +108,5 @@ class Device {
     uint64_t allocatedBytes_ = 0;
     uint64_t peakAllocatedBytes_ = 0;
 };
-
-[[noreturn]] void throwVulkanError(std::string_view operation, std::string_view object, const char* reason);
-
-// Runs a Vulkan operation; a failure becomes an Error that names the operation and the object.
-template <typename Operation>
-auto checked(std::string_view operation, std::string_view object, const Operation& run) {
-    try {
-        return run();
-    } catch (const vk::SystemError& error) {
-        throwVulkanError(operation, object, error.what());
-    }
-}
 
 } // namespace lavalight::gpu

@@ -38,8 +38,8 @@ struct ShaderText {
 // Finds shader files by their path below shaders/, such as "lib/mis.glsl".
 using ShaderFiles = std::function<std::optional<ShaderText>(const std::string& path)>;
 
-// Compiles an entry point (GLSL 4.60, SPIR-V 1.5 for Vulkan 1.2). #include "a/b.glsl" asks `includes`, so that
-// a file is found by the same name from everywhere; each file is included once. Throws Error with the
+// Compiles an entry point (GLSL 4.60, SPIR-V 1.5 for Vulkan 1.2). #include "a/b.glsl" asks `includes`, so
+// that a file is found by the same name from everywhere; each file is included once. Throws Error with the
 // compiler's message, file names and line numbers.
 [[nodiscard]] KernelCode compileKernel(const ShaderText& source, const ShaderFiles& includes);
 

@@ -26,16 +26,12 @@ std::vector<gpu::SpecialisationConstant> estimatorConstants(const EstimatorSetti
             {CONSTANT_FEATURES, features}};
 }
 
-namespace {
-
-std::vector<std::string_view> kernelsOf(Kernels kernels) {
+std::vector<std::string_view> estimatorKernelNames(Kernels kernels) {
     assert(kernels != Kernels::automatic);
     if (kernels == Kernels::fused)
         return {"path", "accumulate"};
     return {"generate", "extend", "shade", "prepare", "connect", "accumulate"};
 }
-
-} // namespace
 
 EstimatorKernels::EstimatorKernels(gpu::Device& device, Kernels kernels, const EstimatorSettings& settings,
                                    uint32_t features, const FrameParameters& frame,
@@ -43,7 +39,7 @@ EstimatorKernels::EstimatorKernels(gpu::Device& device, Kernels kernels, const E
     : way_(kernels), constants_(estimatorConstants(settings, features)) {
     const auto start = std::chrono::steady_clock::now();
     std::vector<const gpu::Kernel*> made;
-    for (const std::string_view name : kernelsOf(kernels))
+    for (const std::string_view name : estimatorKernelNames(kernels))
         made.push_back(
             &kernels_.try_emplace(std::string(name), device, source(name), constants_).first->second);
     gpu::warmUp(device, made, std::as_bytes(std::span(&frame, 1)));

@@ -20,6 +20,9 @@ namespace lavalight {
 [[nodiscard]] std::vector<gpu::SpecialisationConstant> estimatorConstants(const EstimatorSettings& settings,
                                                                           uint32_t features);
 
+// Names of the kernels of one way to render, which must not be automatic.
+[[nodiscard]] std::vector<std::string_view> estimatorKernelNames(Kernels kernels);
+
 // The kernels of one way to render, specialised, and compiled by the driver. No scene need be uploaded yet.
 class EstimatorKernels {
   public:

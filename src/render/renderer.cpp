@@ -1,6 +1,7 @@
 #include "render/renderer.h"
 
 #include <algorithm>
+#include <cassert>
 #include <chrono>
 #include <cmath>
 #include <future>
@@ -100,6 +101,26 @@ void setLights(FrameParameters& frame, const Lights& lights) {
     frame.lightColumns = static_cast<uint32_t>(lights.table.size());
 }
 
+namespace {
+
+// What setLights() sets.
+void copyLights(const FrameParameters& from, FrameParameters& to) {
+    to.environment = from.environment;
+    to.environmentLight = from.environmentLight;
+    to.environmentWidth = from.environmentWidth;
+    to.environmentHeight = from.environmentHeight;
+    to.firstLightColumn = from.firstLightColumn;
+    to.lightColumns = from.lightColumns;
+}
+
+} // namespace
+
+bool keepsLights(const RenderSettings& a, const RenderSettings& b) {
+    return a.estimator.lightSelection == b.estimator.lightSelection &&
+           (a.estimator.mis == Mis::off) == (b.estimator.mis == Mis::off) && a.environment == b.environment &&
+           a.environmentFile == b.environmentFile && a.environmentIntensity == b.environmentIntensity;
+}
+
 // What takes long before a render can start: the BVH is built on the host while the driver compiles the
 // kernels.
 struct Renderer::Setup {
@@ -158,8 +179,9 @@ Renderer::Renderer(gpu::Device& device, const RenderSettings& settings,
 
 Renderer::Renderer(gpu::Device& device, const RenderSettings& settings, Setup setup,
                    const KernelSource& source)
-    : device_(&device), settings_(settings), frame_(setup.frame), kernels_(std::move(setup.kernels)),
-      scene_(device, setup.scene, source), film_(device, settings.width, settings.height, settings.bandRows),
+    : device_(&device), settings_(settings), frame_(setup.frame), sceneFeatures_(setup.scene.features),
+      kernels_(std::move(setup.kernels)), scene_(device, setup.scene, source),
+      film_(device, settings.width, settings.height, settings.bandRows),
       waves_(makeWaveRenderer(device, settings_.kernels, {scene_, film_, frame_, kernels_})) {
     settings_.estimator.lightSelection = setup.lightSelection;
 }
@@ -180,54 +202,89 @@ void Renderer::reloadKernels(const KernelSource& source) {
     kernels_.reload(*device_, frame_, source);
     if (table)
         scene_.setAlbedoTable(std::move(*table));
+    startAnew();
+}
+
+void Renderer::restart(const Scene& scene, const Camera& camera, const RenderSettings& wanted,
+                       const KernelSource& source) {
+    RenderSettings settings = resolveKernels(wanted, device_->description().isCpu);
+    settings.estimator.lightSelection = settings_.estimator.lightSelection;
+    FrameParameters frame = makeFrame(scene, camera, settings);
+    copyLights(frame_, frame);
+    const uint32_t features = sceneFeatures_ | cameraFeatures(camera);
+    if (!kernels_.serve(settings.kernels, settings.estimator, features)) {
+        EstimatorKernels fresh(*device_, settings.kernels, settings.estimator, features, frame, source);
+        kernels_ = std::move(fresh);
+    }
+    if (settings.width != film_.width() || settings.height != film_.height())
+        film_ = Film(*device_, settings.width, settings.height, settings.bandRows);
+    settings_ = settings;
+    frame_ = frame;
+    startAnew();
+}
+
+void Renderer::startAnew() {
     film_.clear();
-    pathsDone_ = 0;
-    isOutOfTime_ = false;
+    position_ = {};
+    waves_.reset(); // gives its memory back first
     waves_ = makeWaveRenderer(*device_, settings_.kernels, {scene_, film_, frame_, kernels_});
 }
 
 StopReason Renderer::render(const KeepGoing& keepGoing) {
     const auto start = std::chrono::steady_clock::now();
-    const auto mayGoOn = [&](double fraction) {
+    while (!isDone()) {
+        step(settings_.waveSize);
         const double seconds =
             std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-        isOutOfTime_ = settings_.seconds > 0.0 && seconds >= settings_.seconds;
-        return keepGoing(isTimed() ? std::max(fraction, seconds / settings_.seconds) : fraction) &&
-               !isOutOfTime_;
-    };
-    for (uint32_t done = 0; done < settings_.samples;) {
-        const uint32_t count = nextPass(done);
-        for (size_t band = 0; band < film_.bands().size(); ++band)
-            if (!renderBand(band, settings_.firstSample + done, count, mayGoOn))
-                return isOutOfTime_ ? StopReason::time : StopReason::interrupted;
-        done += count;
-        if (settings_.targetError > 0.0 && done > 1 && errorEstimate(rendering()) <= settings_.targetError)
+        if (!keepGoing(isTimed() ? std::max(fractionDone(), seconds / settings_.seconds) : fractionDone()))
+            return StopReason::interrupted;
+        if (isTimed() && seconds >= settings_.seconds)
+            return StopReason::time;
+        const bool isPassOver = position_.passSamples == 0;
+        if (settings_.targetError > 0.0 && isPassOver && position_.samplesDone > 1 &&
+            errorEstimate(rendering()) <= settings_.targetError)
             return StopReason::targetError;
     }
     return StopReason::samples;
 }
 
-// A render that may stop at any moment starts with passes of few samples, so that every pixel has some.
-uint32_t Renderer::nextPass(uint32_t done) const {
-    const uint32_t count = samplesPerWave(settings_.samples - done, settings_.waveSize, film_);
-    return isTimed() || settings_.targetError > 0.0 ? std::min(count, std::max(1u, done)) : count;
-}
-
-bool Renderer::renderBand(size_t band, uint32_t firstSample, uint32_t sampleCount,
-                          const KeepGoing& keepGoing) {
-    const FilmBand& rows = film_.bands()[band];
+void Renderer::step(uint32_t mostSlots) {
+    assert(!isDone());
+    RenderPosition& at = position_;
+    if (at.passSamples == 0)
+        at.passSamples = nextPass();
+    const FilmBand& rows = film_.bands()[at.band];
     const uint32_t first = rows.firstRow * film_.width();
     const uint32_t pixels = rows.rows * film_.width();
-    const double total = static_cast<double>(settings_.samples) * film_.width() * film_.height();
-    for (uint32_t done = 0; done < pixels;) {
-        const uint32_t count = std::min(settings_.waveSize / sampleCount, pixels - done);
-        waves_->renderWave(band, {first + done, count, firstSample, sampleCount, first, 0, 0, 0, 0});
-        done += count;
-        pathsDone_ += uint64_t{count} * sampleCount;
-        if (!keepGoing(static_cast<double>(pathsDone_) / total))
-            return false;
+    const uint32_t slots = std::min(mostSlots, settings_.waveSize);
+    const uint32_t count = std::clamp(slots / at.passSamples, 1u, pixels - at.pixel);
+    waves_->renderWave(at.band, {first + at.pixel, count, settings_.firstSample + at.samplesDone,
+                                 at.passSamples, first, 0, 0, 0, 0});
+    at.pixel += count;
+    if (at.pixel == pixels) {
+        at.pixel = 0;
+        ++at.band;
     }
-    return true;
+    if (at.band == film_.bands().size()) {
+        at.band = 0;
+        at.samplesDone += at.passSamples;
+        at.passSamples = 0;
+    }
+}
+
+// A render that may stop at any moment starts with passes of few samples, so that every pixel has some.
+uint32_t Renderer::nextPass() const {
+    const uint32_t done = position_.samplesDone;
+    const uint32_t count = samplesPerWave(settings_.samples - done, settings_.waveSize, film_);
+    const bool mayStop = settings_.isProgressive || isTimed() || settings_.targetError > 0.0;
+    return mayStop ? std::min(count, std::max(1u, done)) : count;
+}
+
+double Renderer::fractionDone() const {
+    const double pixels = static_cast<double>(film_.width()) * film_.height();
+    const uint32_t row = isDone() ? 0 : film_.bands()[position_.band].firstRow;
+    const double before = static_cast<double>(row) * film_.width() + position_.pixel;
+    return (position_.samplesDone + position_.passSamples * before / pixels) / settings_.samples;
 }
 
 double errorEstimate(const Rendering& rendering) {

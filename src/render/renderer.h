@@ -21,6 +21,14 @@ namespace lavalight {
 
 enum class StopReason { samples, time, targetError, interrupted };
 
+// The next wave of a render. Passes take samples of all pixels, waves go through them band by band.
+struct RenderPosition {
+    uint32_t samplesDone = 0; // of every pixel, by the passes before
+    uint32_t passSamples = 0; // of this pass; 0: it is yet to start
+    size_t band = 0;
+    uint32_t pixel = 0; // of the band
+};
+
 class Renderer {
   public:
     // Uploads the scene and builds the kernels. The settings must be checked, their width resolved
@@ -42,6 +50,19 @@ class Renderer {
     // each pixel knows how many samples it has.
     StopReason render(const KeepGoing& keepGoing);
 
+    // The same in steps: takes the samples of one wave, of at most `mostSlots` paths but at least one
+    // pixel's.
+    void step(uint32_t mostSlots);
+    // Whether all samples are taken.
+    [[nodiscard]] bool isDone() const { return position_.samplesDone >= settings_.samples; }
+    [[nodiscard]] const RenderPosition& position() const { return position_; }
+
+    // Goes on with another view, or other settings, and an empty film. The scene stays on the device; kernels
+    // are compiled where those there are do not serve. `scene` is still the same, and so are its lights
+    // (keepsLights). Throws Error with everything as it was.
+    void restart(const Scene& scene, const Camera& camera, const RenderSettings& wanted,
+                 const KernelSource& source = embeddedKernel);
+
     // Names of the kernels whose code is another by `source`. Throws Error where one does not compile. May be
     // asked while it renders.
     [[nodiscard]] std::vector<std::string> changedKernels(const KernelSource& source) const;
@@ -61,10 +82,9 @@ class Renderer {
     [[nodiscard]] const RenderSettings& settings() const { return settings_; }
 
   private:
-    [[nodiscard]] bool renderBand(size_t band, uint32_t firstSample, uint32_t sampleCount,
-                                  const KeepGoing& keepGoing);
-
-    [[nodiscard]] uint32_t nextPass(uint32_t done) const;
+    void startAnew();
+    [[nodiscard]] uint32_t nextPass() const;
+    [[nodiscard]] double fractionDone() const;
     [[nodiscard]] bool isTimed() const { return settings_.seconds > 0.0; }
 
     struct Setup;
@@ -75,12 +95,12 @@ class Renderer {
     gpu::Device* device_;
     RenderSettings settings_;
     FrameParameters frame_;
+    uint32_t sceneFeatures_; // kFeature..., without the camera's
     EstimatorKernels kernels_;
     GpuScene scene_;
     Film film_;
     std::unique_ptr<WaveRenderer> waves_;
-    uint64_t pathsDone_ = 0;
-    bool isOutOfTime_ = false;
+    RenderPosition position_;
 };
 
 // What --target-error is compared with: mean(Var / (mean^2 + 0.01)) over pixels and channels, Var being the
@@ -90,6 +110,9 @@ class Renderer {
 
 // Width from the camera's aspect ratio where the settings leave it open (16:9 where the camera does too).
 [[nodiscard]] RenderSettings resolveSize(RenderSettings settings, const Camera& camera);
+
+// Whether a renderer of settings `a` may restart() with `b`, as far as the lights are concerned.
+[[nodiscard]] bool keepsLights(const RenderSettings& a, const RenderSettings& b);
 
 // Kernels and wave size where the settings leave them to the device.
 [[nodiscard]] RenderSettings resolveKernels(RenderSettings settings, bool isCpu);

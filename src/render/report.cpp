@@ -71,7 +71,44 @@ Json ledgerJson(const std::vector<LedgerEntry>& ledger) {
     return json;
 }
 
+glm::dvec3 meanOf(const Image& image) {
+    glm::dvec3 sum(0.0);
+    for (const glm::vec3& pixel : image.pixels)
+        sum += glm::dvec3(pixel);
+    return sum / static_cast<double>(image.pixels.size());
+}
+
+uint64_t totalOf(const std::vector<uint32_t>& counts) {
+    uint64_t total = 0;
+    for (const uint32_t count : counts)
+        total += count;
+    return total;
+}
+
 } // namespace
+
+void fillInputs(RenderReport& report, const Scene& scene, const RenderSettings& settings) {
+    report.settings = settings;
+    report.scene = scene.source;
+    report.triangles = scene.triangleCount();
+    report.warnings = scene.warnings;
+}
+
+void fillResults(RenderReport& report, const Renderer& renderer, const gpu::Device& device,
+                 const Rendering& rendering, const Scene& scene) {
+    report.device = device.description();
+    report.kernels = renderer.waves().kernelTimes();
+    report.rays = renderer.waves().rays();
+    report.tallies = renderer.film().readTallies();
+    report.sceneBytes = renderer.scene().bytes();
+    report.peakDeviceBytes = device.peakAllocatedBytes();
+    report.samples = totalOf(rendering.sampleCounts);
+    report.meanRadiance = meanOf(rendering.radiance);
+    const glm::dvec3 variance = meanOf(rendering.variance);
+    report.meanVariance = (variance.x + variance.y + variance.z) / 3.0;
+    report.errorEstimate = errorEstimate(rendering);
+    report.ledger = makeLedger(scene, report.settings, report.tallies, report.stop);
+}
 
 std::string_view nameOf(StopReason reason) {
     switch (reason) {

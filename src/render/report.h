@@ -44,6 +44,12 @@ struct RenderReport {
     std::optional<ToneSettings> tone; // of the PNG, if there is one
 };
 
+// What was asked for.
+void fillInputs(RenderReport& report, const Scene& scene, const RenderSettings& settings);
+// What came of it, with the ledger. `rendering` is the renderer's; the inputs are there already.
+void fillResults(RenderReport& report, const Renderer& renderer, const gpu::Device& device,
+                 const Rendering& rendering, const Scene& scene);
+
 [[nodiscard]] std::string_view nameOf(StopReason reason);
 [[nodiscard]] Metadata exrMetadata(const RenderReport& report);
 [[nodiscard]] std::string reportJson(const RenderReport& report);

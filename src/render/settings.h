@@ -61,6 +61,7 @@ struct EstimatorSettings {
     float clampIndirect =
         std::numeric_limits<float>::infinity(); // biased: largest channel of an indirect contribution
     uint32_t seed = 0;
+    bool operator==(const EstimatorSettings&) const = default;
 };
 
 // What is rendered, when to stop, and how the work is cut up. The cutting changes no bit of the image.
@@ -68,10 +69,11 @@ struct RenderSettings {
     EstimatorSettings estimator;
     uint32_t width = 0; // pixels; 0: by the camera's aspect ratio from the height
     uint32_t height = 512;
-    uint32_t samples = 64;    // per pixel, at most
-    uint32_t firstSample = 0; // samples [firstSample, firstSample + samples)
-    double seconds = 0.0;     // stop after this time; 0: no limit
-    double targetError = 0.0; // stop when the estimated relMSE is below this; 0: no target
+    uint32_t samples = 64;      // per pixel, at most
+    uint32_t firstSample = 0;   // samples [firstSample, firstSample + samples)
+    double seconds = 0.0;       // stop after this time; 0: no limit
+    double targetError = 0.0;   // stop when the estimated relMSE is below this; 0: no target
+    bool isProgressive = false; // passes start with one sample, so that every pixel soon has some
     Kernels kernels = Kernels::automatic;
     uint32_t waveSize = 0; // path slots of a wave; 0: by the kernels
     uint32_t bandRows = 0; // rows of a film band; 0: as many as a storage buffer of the device holds
@@ -81,6 +83,7 @@ struct RenderSettings {
     std::vector<std::string> changedShaders;                        // of --shaders, for the record
     std::vector<std::pair<std::string, std::string>> cameraOptions; // as given, for describe() alone
     float environmentIntensity = 1.0f; // multiplies the environment, whatever it is
+    bool operator==(const RenderSettings&) const = default;
 };
 
 constexpr uint32_t kMaxBounceLimit = 1024; // counters of every bounce are kept for the whole wave

@@ -107,6 +107,7 @@ gpu::KernelCode ShaderOverlay::compile(std::string_view name) const {
 }
 
 const gpu::KernelCode& ShaderOverlay::kernel(std::string_view name) {
+    const std::lock_guard lock(mutex_);
     const auto known = kernels_.find(name);
     return known != kernels_.end() ? known->second
                                    : kernels_.emplace(std::string(name), compile(name)).first->second;

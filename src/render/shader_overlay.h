@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -27,7 +28,7 @@ class ShaderOverlay {
     explicit ShaderOverlay(const std::filesystem::path& folder);
 
     // Compiled anew, once, where one of the kernel's files is changed, else the embedded one. Throws Error
-    // with the compiler's message.
+    // with the compiler's message. From any thread.
     [[nodiscard]] const gpu::KernelCode& kernel(std::string_view name);
 
     // Paths of the files that differ from ours or are new, ascending.
@@ -41,6 +42,7 @@ class ShaderOverlay {
     [[nodiscard]] gpu::KernelCode compile(std::string_view name) const;
 
     std::map<std::string, gpu::ShaderText> texts_;                // of the changed files
+    std::mutex mutex_;                                            // of:
     std::map<std::string, gpu::KernelCode, std::less<>> kernels_; // that were asked for
 };
 

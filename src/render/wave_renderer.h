@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "gpu/buffer.h"
 #include "gpu/commands.h"
@@ -38,6 +39,9 @@ class WaveRenderer {
     virtual void renderWave(size_t band, WaveRange range) = 0;
 
     [[nodiscard]] const RayCounts& rays() const { return rays_; }
+    // Camera rays, then those to the next vertex, by bounce: the lengths of the queues. Empty where there are
+    // no queues.
+    [[nodiscard]] const std::vector<uint64_t>& raysPerBounce() const { return raysPerBounce_; }
     [[nodiscard]] const gpu::KernelTimes& kernelTimes() const { return commands_.times(); }
 
   protected:
@@ -45,6 +49,7 @@ class WaveRenderer {
 
     gpu::Commands commands_;
     RayCounts rays_;
+    std::vector<uint64_t> raysPerBounce_;
 };
 
 // What decides how waves are rendered. Scene, film and kernels must outlive the renderer;

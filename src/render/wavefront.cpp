@@ -88,8 +88,10 @@ void Wavefront::recordBounce(const Band& band, WaveRange range, uint32_t bounce)
 
 void Wavefront::countRays() {
     const auto counters = state_.counters.downloadAll<BounceCounters>();
+    raysPerBounce_.resize(counters.size());
     rays_.camera += counters.front().rays;
     for (size_t bounce = 0; bounce < counters.size(); ++bounce) {
+        raysPerBounce_[bounce] += counters[bounce].rays;
         rays_.indirect += bounce > 0 ? counters[bounce].rays : 0;
         rays_.shadow += counters[bounce].shadowRays;
     }

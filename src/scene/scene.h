@@ -130,6 +130,7 @@ struct Camera {
     std::optional<float> aspect; // width / height that the file asks for
     float lensRadius = 0.0f;     // perspective: metres; 0: all is sharp
     float focusDistance = 1.0f;  // metres along `forward` to the plane that is sharp
+    bool operator==(const Camera&) const = default;
 };
 
 // Radiance from all directions, as an equirectangular picture: the middle of its top row is +Y, the middle of

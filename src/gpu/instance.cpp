@@ -1,0 +1,114 @@
+#include "gpu/instance.h"
+
+#include <array>
+#include <mutex>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "gpu/vulkan_error.h"
+
+namespace lavalight::gpu {
+
+// Written by the validation layer from whichever thread makes the call.
+struct Instance::MessageLog {
+    std::mutex mutex;
+    std::vector<std::string> lines;
+
+    static VKAPI_ATTR VkBool32 VKAPI_CALL append(VkDebugUtilsMessageSeverityFlagBitsEXT,
+                                                 VkDebugUtilsMessageTypeFlagsEXT,
+                                                 const VkDebugUtilsMessengerCallbackDataEXT* data,
+                                                 void* user) {
+        auto* log = static_cast<MessageLog*>(user);
+        const std::lock_guard lock(log->mutex);
+        log->lines.emplace_back(data->pMessage);
+        return VK_FALSE;
+    }
+};
+
+namespace {
+
+constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
+
+vk::raii::Context makeContext() {
+    try {
+        return vk::raii::Context();
+    } catch (const std::exception& error) {
+        throw Error(
+            fmt::format("cannot load Vulkan: {}; Debian's packages are libvulkan1 and mesa-vulkan-drivers",
+                        error.what()));
+    }
+}
+
+void requireValidationLayer(const vk::raii::Context& context) {
+    for (const vk::LayerProperties& layer : context.enumerateInstanceLayerProperties())
+        if (std::string_view(layer.layerName.data()) == kValidationLayer)
+            return;
+    throw Error(fmt::format("cannot validate: the layer {} is not installed; Debian's package is "
+                            "vulkan-validationlayers",
+                            kValidationLayer));
+}
+
+vk::raii::Instance makeInstance(const vk::raii::Context& context, bool validate,
+                                std::span<const char* const> wanted) {
+    const vk::ApplicationInfo application("lavalight", 1, nullptr, 0, VK_API_VERSION_1_2);
+    const std::array enabled = {vk::ValidationFeatureEnableEXT::eSynchronizationValidation};
+    const vk::ValidationFeaturesEXT features(enabled);
+    const std::array layers = {kValidationLayer};
+    std::vector<const char*> extensions(wanted.begin(), wanted.end());
+    vk::InstanceCreateInfo info({}, &application);
+    if (validate) {
+        requireValidationLayer(context);
+        extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+        info.setPEnabledLayerNames(layers);
+        info.setPNext(&features);
+    }
+    info.setPEnabledExtensionNames(extensions);
+    const auto create = [&] { return vk::raii::Instance(context, info); };
+    return checked(
+        "create",
+        "the Vulkan instance (is a driver installed? Debian's mesa-vulkan-drivers has one for CPUs)", create);
+}
+
+} // namespace
+
+Instance::Instance(bool validate, std::span<const char* const> extensions)
+    : context_(makeContext()), messages_(std::make_unique<MessageLog>()),
+      instance_(makeInstance(context_, validate, extensions)) {
+    if (!validate)
+        return;
+    using Severity = vk::DebugUtilsMessageSeverityFlagBitsEXT;
+    using Type = vk::DebugUtilsMessageTypeFlagBitsEXT;
+    messenger_ =
+        vk::raii::DebugUtilsMessengerEXT(instance_, {{},
+                                                     Severity::eError | Severity::eWarning,
+                                                     Type::eGeneral | Type::eValidation | Type::ePerformance,
+                                                     &MessageLog::append,
+                                                     messages_.get()});
+}
+
+Instance::~Instance() = default;
+
+std::vector<vk::raii::PhysicalDevice> Instance::physicalDevices() const {
+    return checked("list", "the Vulkan devices", [&] {
+        std::vector<vk::raii::PhysicalDevice> list;
+        for (auto& device : vk::raii::PhysicalDevices(instance_))
+            list.push_back(std::move(device));
+        return list;
+    });
+}
+
+std::vector<std::string> Instance::validationMessages() const {
+    const std::lock_guard lock(messages_->mutex);
+    return messages_->lines;
+}
+
+void Instance::requireNoValidationMessages() const {
+    const std::vector<std::string> messages = validationMessages();
+    if (!messages.empty())
+        throw Error(fmt::format("the validation layer has {} messages, the first: {}", messages.size(),
+                                messages.front()));
+}
+
+} // namespace lavalight::gpu
