@@ -66,3 +66,9 @@ bool addExactly(inout uvec3 sum, float x, int lowestExponent) {
     sum = uvec3(0xffffffffu);
     return false;
 }
+
+// Value of a number of three words, the lowest bit worth 2^lowestExponent: off by 2 units in the last place at most.
+float fromFixed(uvec3 words, int lowestExponent) {
+    return ldexp(float(words.z), lowestExponent + 64) +
+           (ldexp(float(words.y), lowestExponent + 32) + ldexp(float(words.x), lowestExponent));
+}

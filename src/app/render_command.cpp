@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -25,6 +24,7 @@
 #include "image/png.h"
 #include "render/renderer.h"
 #include "render/report.h"
+#include "render/tone_mapper.h"
 #include "scene/builtin.h"
 
 namespace lavalight {
@@ -65,7 +65,7 @@ void printSummary(const RenderReport& report) {
 
 RenderCommand::RenderCommand(CLI::App& app)
     : Command(app, "render", "Render a scene to an image"), options_(parser()), sceneOptions_(parser()),
-      sequence_(parser()), shaders_(parser()) {
+      sequence_(parser()), shaders_(parser()), tone_(parser()) {
     shaders_.declareWatch(parser());
     parser()
         .add_option("scene", scene_,
@@ -76,7 +76,6 @@ RenderCommand::RenderCommand(CLI::App& app)
         .add_option("-o,--output", outputs_.exr, "EXR file; default: the scene's name, unless --png is given")
         ->type_name("OUT.exr");
     parser().add_option("--png", outputs_.png, "PNG file to look at (sRGB)")->type_name("OUT.png");
-    parser().add_option("--exposure", exposure_, "Stops of exposure for the PNG")->type_name("STOPS");
     parser()
         .add_option("--report", outputs_.report, "JSON report: times, rays, memory, ledger")
         ->type_name("REPORT.json");
@@ -86,10 +85,12 @@ RenderCommand::RenderCommand(CLI::App& app)
 // What lasts from one frame to the next: kernels are compiled again only where a frame's features differ.
 struct RenderCommand::Session {
     RenderSettings settings;
+    ToneSettings tone;
     KernelSource source = embeddedKernel;
     std::optional<gpu::Device> device{};
     std::optional<EstimatorKernels> kernels{};
-    std::optional<Camera> standIn{}; // of the first frame: its scene moves, the picture must not
+    std::optional<ToneMapper> toneMapper{}; // where there is a PNG to write
+    std::optional<Camera> standIn{};        // of the first frame: its scene moves, the picture must not
 
     // The camera of a frame; the first one also says what is wrong with the scene, and the image's size.
     [[nodiscard]] Camera view(const Scene& scene, const RenderOptions& options) {
@@ -131,8 +132,6 @@ struct RenderCommand::Take {
 };
 
 void RenderCommand::requireOutputs(const Outputs& outputs) const {
-    if (!std::isfinite(exposure_))
-        throw UsageError(fmt::format("--exposure: {} is no number of stops", exposure_));
     const std::array<std::string, 3> files{outputs.exr, outputs.png, outputs.report};
     for (auto file = files.begin(); file != files.end(); ++file) {
         if (file->empty())
@@ -143,20 +142,14 @@ void RenderCommand::requireOutputs(const Outputs& outputs) const {
     }
 }
 
-void RenderCommand::writeImages(const Outputs& files, const Rendering& rendering,
-                                const RenderReport& report) const {
-    if (!files.exr.empty())
-        writeExr(files.exr, rendering, exrMetadata(report));
-    if (!files.png.empty())
-        writePng(files.png, rendering.radiance, exposure_);
-}
-
 int RenderCommand::run() {
     if (quiet_)
         configureLog(LogLevel::quiet);
     if (outputs_.exr.empty() && outputs_.png.empty())
         outputs_.exr = std::filesystem::path(scene_).stem().string() + ".exr";
-    Session session{options_.settings()};
+    if (tone_.isCurveGiven() && outputs_.png.empty())
+        throw UsageError("--tonemap: only a PNG is tone mapped; give --png OUT.png, or leave it out");
+    Session session{options_.settings(), tone_.settings()};
     if (const auto overlay = shaders_.overlay())
         session.use(overlay);
     if (sequence_.isAsked() && shaders_.isWatching())
@@ -186,10 +179,11 @@ int RenderCommand::runWatching(Session& session) const {
     FileWatch saves(shaders_.folder());
     Take take = prepare(sceneOptions_.importOptions(), session);
     const InterruptGuard guard;
+    const ToneMapper* toneMapper = session.toneMapper ? &*session.toneMapper : nullptr;
     std::shared_ptr<ShaderOverlay> next;
     const auto look = [&](std::chrono::milliseconds atMost) {
         const std::vector<std::string> changes = saves.wait(atMost);
-        next = changes.empty() ? nullptr : shaders_.reread(changes, *take.renderer);
+        next = changes.empty() ? nullptr : shaders_.reread(changes, *take.renderer, toneMapper);
     };
     while (!guard.interrupted()) {
         takeSamples(take, [&] {
@@ -204,6 +198,8 @@ int RenderCommand::runWatching(Session& session) const {
             take.watch = Stopwatch();
             session.use(next);
             take.renderer->reloadKernels(session.source);
+            if (session.toneMapper)
+                session.toneMapper.emplace(*session.device, session.source);
             spdlog::info("compiled in {:.2f} s", take.watch.lap("prepare"));
         }
     }
@@ -221,6 +217,8 @@ RenderCommand::Take RenderCommand::prepare(const ImportOptions& moment, Session&
         session.device.emplace(options_.device());
     take.watch.lap("device");
     take.renderer = session.makeRenderer(take.scene, camera);
+    if (!outputs_.png.empty() && !session.toneMapper)
+        session.toneMapper.emplace(*session.device, session.source);
     take.watch.lap("prepare");
     return take;
 }
@@ -243,7 +241,13 @@ void RenderCommand::write(Take& take, const Outputs& files, Session& session) co
     report.settings.changedShaders = session.settings.changedShaders;
     const Rendering rendering = take.renderer->rendering();
     fillResults(report, *take.renderer, *session.device, rendering, take.scene);
-    writeImages(files, rendering, report);
+    if (!files.exr.empty())
+        writeExr(files.exr, rendering, exrMetadata(report));
+    if (!files.png.empty()) {
+        report.tone = session.tone;
+        writePng(files.png, report.settings.width, report.settings.height,
+                 session.toneMapper->map(take.renderer->film(), session.tone));
+    }
     take.watch.lap("write");
     report.stages = take.watch.stages();
     report.stages.emplace_back("prepareBvh", take.renderer->scene().bvhSeconds());

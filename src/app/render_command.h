@@ -9,7 +9,7 @@
 #include "app/render_options.h"
 #include "app/scene_options.h"
 #include "app/shader_options.h"
-#include "image/image.h"
+#include "app/tone_options.h"
 #include "render/report.h"
 
 namespace lavalight {
@@ -31,7 +31,6 @@ class RenderCommand : public Command {
     struct Take;    // one image in the making
 
     void requireOutputs(const Outputs& files) const;
-    void writeImages(const Outputs& files, const Rendering& rendering, const RenderReport& report) const;
     [[nodiscard]] int runSequence(Session& session) const;
     [[nodiscard]] int runWatching(Session& session) const;
     [[nodiscard]] Take prepare(const ImportOptions& moment, Session& session) const;
@@ -43,9 +42,9 @@ class RenderCommand : public Command {
     SceneOptions sceneOptions_;
     FrameSequence sequence_;
     ShaderOptions shaders_;
+    ToneOptions tone_;
     std::string scene_ = "cornell-box";
     Outputs outputs_;
-    float exposure_ = 0.0f;
     bool quiet_ = false;
 };
 

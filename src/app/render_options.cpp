@@ -4,13 +4,11 @@
 #include <limits>
 #include <map>
 #include <optional>
-#include <ranges>
-#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
+#include "app/named_option.h"
 #include "app/option_values.h"
 #include "base/error.h"
 #include "render/presets.h"
@@ -28,35 +26,6 @@ void parseSize(const std::string& text, RenderSettings& settings) {
                                      kMaxImageSide));
     settings.width = *width;
     settings.height = *height;
-}
-
-// Takes one of the names, whatever their case, and hands on the value's number, which is what the parser
-// stores.
-template <typename Value>
-CLI::Validator oneOf(const std::map<std::string, Value>& values) {
-    const auto replaceName = [values](std::string& text) -> std::string {
-        const auto found = values.find(CLI::detail::to_lower(text));
-        if (found == values.end())
-            return fmt::format("{} not in {{{}}}", text, fmt::join(std::views::keys(values), ","));
-        text = std::to_string(static_cast<uint32_t>(found->second));
-        return {};
-    };
-    return {replaceName, ""};
-}
-
-// An option for a setting with named values; its help and its errors list the names.
-template <typename Value>
-void addNamed(CLI::App& parser, const std::string& option, Value& value, const std::string& help) {
-    std::map<std::string, Value> values;
-    std::string names;
-    for (const SettingName<Value>& name : settingNames<Value>()) {
-        values.emplace(name.name, name.value);
-        names += fmt::format("{}{}", names.empty() ? "" : "|", name.name);
-    }
-    parser.add_option(option, value, help)
-        ->type_name(names)
-        ->transform(oneOf(values))
-        ->default_str(std::string(nameOf(value)));
 }
 
 void addSwitch(CLI::App& parser, const std::string& option, bool& value, const std::string& help) {

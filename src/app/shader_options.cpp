@@ -55,11 +55,15 @@ std::shared_ptr<ShaderOverlay> ShaderOptions::overlay() const {
 }
 
 std::shared_ptr<ShaderOverlay> ShaderOptions::reread(const std::vector<std::string>& changes,
-                                                     const Renderer& renderer) const {
+                                                     const Renderer& renderer,
+                                                     const ToneMapper* toneMapper) const {
     spdlog::info("saved: {}", fmt::join(changes, ", "));
     try {
         std::shared_ptr<ShaderOverlay> now = overlay();
-        const std::vector<std::string> names = renderer.changedKernels(sourceOf(now));
+        const KernelSource source = sourceOf(now);
+        std::vector<std::string> names = renderer.changedKernels(source);
+        if (toneMapper != nullptr && toneMapper->isChanged(source))
+            names.emplace_back("tonemap");
         if (!names.empty()) {
             spdlog::info("changed: {}", fmt::join(names, ", "));
             return now;

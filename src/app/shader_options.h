@@ -9,6 +9,7 @@
 
 #include "render/renderer.h"
 #include "render/shader_overlay.h"
+#include "render/tone_mapper.h"
 
 namespace lavalight {
 
@@ -32,10 +33,11 @@ class ShaderOptions {
     // ShaderOverlay does.
     [[nodiscard]] std::shared_ptr<ShaderOverlay> overlay() const;
 
-    // The folder once the files `changes` are saved; null unless they give the renderer other kernels. Tells
-    // on stderr what changed, and what does not compile.
+    // The folder once the files `changes` are saved; null unless they give the renderer, or the tone mapper
+    // if there is one, other kernels. Tells on stderr what changed, and what does not compile.
     [[nodiscard]] std::shared_ptr<ShaderOverlay> reread(const std::vector<std::string>& changes,
-                                                        const Renderer& renderer) const;
+                                                        const Renderer& renderer,
+                                                        const ToneMapper* toneMapper = nullptr) const;
 
   private:
     std::string folder_;

@@ -1,9 +1,7 @@
 #include "image/png.h"
 
-#include <algorithm>
 #include <cassert>
 #include <cerrno>
-#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <vector>
@@ -13,6 +11,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "image/image.h"
 
 namespace lavalight {
 namespace {
@@ -22,12 +21,12 @@ constexpr int kChannels = 3;
 // stb counts bytes in ints, and doubles them as its output grows.
 static_assert(int64_t{kMaxImageSide} * (int64_t{kMaxImageSide} * kChannels + 1) < INT32_MAX / 2);
 
-std::vector<uint8_t> encode(const Image& image, float scale) {
+std::vector<uint8_t> bytesOf(std::span<const uint32_t> pixels) {
     std::vector<uint8_t> bytes;
-    bytes.reserve(image.pixels.size() * kChannels);
-    for (const glm::vec3& pixel : image.pixels)
-        for (int c = 0; c < kChannels; ++c)
-            bytes.push_back(srgbCode(pixel[c] * scale));
+    bytes.reserve(pixels.size() * kChannels);
+    for (const uint32_t pixel : pixels)
+        for (int channel = 0; channel < kChannels; ++channel)
+            bytes.push_back(static_cast<uint8_t>(pixel >> (8 * channel)));
     return bytes;
 }
 
@@ -37,29 +36,19 @@ void appendTo(void* stream, void* data, int size) {
 
 } // namespace
 
-float srgbFromLinear(float linear) {
-    assert(linear >= 0.0f && linear <= 1.0f);
-    return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1.0f / 2.4f) - 0.055f;
-}
-
-uint8_t srgbCode(float linear) {
-    if (!(linear > 0.0f)) // NaN too
-        return 0;
-    return static_cast<uint8_t>(255.0f * srgbFromLinear(std::min(linear, 1.0f)) + 0.5f);
-}
-
-void writePng(const std::filesystem::path& path, const Image& image, float exposureStops) {
-    assert(image.width > 0 && image.height > 0 && image.width <= kMaxImageSide &&
-           image.height <= kMaxImageSide);
-    const auto width = static_cast<int>(image.width);
-    const auto height = static_cast<int>(image.height);
-    const std::vector<uint8_t> bytes = encode(image, std::exp2(exposureStops));
+void writePng(const std::filesystem::path& path, uint32_t width, uint32_t height,
+              std::span<const uint32_t> pixels) {
+    assert(width > 0 && height > 0 && width <= kMaxImageSide && height <= kMaxImageSide);
+    assert(pixels.size() == size_t{width} * height);
+    const std::vector<uint8_t> bytes = bytesOf(pixels);
+    const auto columns = static_cast<int>(width);
+    const auto rows = static_cast<int>(height);
     writeFileAtomically(path, [&](const std::filesystem::path& part) {
         std::ofstream out(part, std::ios::binary);
         if (!out)
             throw Error(fmt::format("cannot write {}: {}", path.string(), std::strerror(errno)));
-        const int encoded =
-            stbi_write_png_to_func(appendTo, &out, width, height, kChannels, bytes.data(), width * kChannels);
+        const int encoded = stbi_write_png_to_func(appendTo, &out, columns, rows, kChannels, bytes.data(),
+                                                   columns * kChannels);
         if (encoded == 0)
             throw Error(fmt::format("cannot write {}: {} x {} pixels do not fit into memory", path.string(),
                                     width, height));

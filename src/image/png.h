@@ -3,20 +3,13 @@
 
 #include <cstdint>
 #include <filesystem>
-
-#include "image/image.h"
+#include <span>
 
 namespace lavalight {
 
-// The sRGB transfer function of a linear value in [0, 1] (IEC 61966-2-1:1999): linear near black, a power
-// above.
-[[nodiscard]] float srgbFromLinear(float linear);
-
-// The 8-bit sRGB code of a linear value: clamped to [0, 1], rounded to nearest; NaN is black.
-[[nodiscard]] uint8_t srgbCode(float linear);
-
-// Writes the image times 2^exposureStops, all or nothing (base/file.h). Equal input gives equal bytes. Throws
-// Error.
-void writePng(const std::filesystem::path& path, const Image& image, float exposureStops);
+// Writes sRGB pixels, rows from the top, each R, G, B from its lowest byte up (the highest is left out), all
+// or nothing (base/file.h). Sides of 1 to kMaxImageSide pixels. Equal input gives equal bytes. Throws Error.
+void writePng(const std::filesystem::path& path, uint32_t width, uint32_t height,
+              std::span<const uint32_t> pixels);
 
 } // namespace lavalight

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/version.h"
+#include "render/setting_names.h"
 
 namespace lavalight {
 namespace {
@@ -152,6 +153,8 @@ std::string reportJson(const RenderReport& report) {
                       {"type", report.device.type},
                       {"api", report.device.apiVersion}};
     json["settings"] = pairsJson(describeOptions(report));
+    if (report.tone)
+        json["png"] = {{"tonemap", nameOf(report.tone->curve)}, {"exposure", report.tone->exposure}};
     json["waveSize"] = report.settings.waveSize;
     json["complete"] = report.stop != StopReason::interrupted;
     json["stoppedBy"] = nameOf(report.stop);

@@ -1,6 +1,7 @@
 // What a render was and what it cost: the JSON report and the EXR header.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "render/ledger.h"
 #include "render/renderer.h"
 #include "render/settings.h"
+#include "render/tone_settings.h"
 #include "scene/import_options.h"
 
 namespace lavalight {
@@ -39,6 +41,7 @@ struct RenderReport {
     double meanVariance = 0.0;  // of the pixels' means, over pixels and channels
     double errorEstimate = 0.0; // see errorEstimate()
     StopReason stop = StopReason::samples;
+    std::optional<ToneSettings> tone; // of the PNG, if there is one
 };
 
 // What was asked for.

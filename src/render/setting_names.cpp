@@ -27,6 +27,10 @@ constexpr std::array<SettingName<Fresnel>, 2> kFresnels{
     {{"exact", Fresnel::exact}, {"schlick", Fresnel::schlick}}};
 constexpr std::array<SettingName<TextureFilter>, 2> kTextureFilters{
     {{"bilinear", TextureFilter::bilinear}, {"stochastic", TextureFilter::stochastic}}};
+constexpr std::array<SettingName<ToneCurve>, 4> kToneCurves{{{"linear", ToneCurve::linear},
+                                                             {"neutral", ToneCurve::neutral},
+                                                             {"agx", ToneCurve::agx},
+                                                             {"aces", ToneCurve::aces}}};
 
 } // namespace
 
@@ -61,6 +65,10 @@ std::span<const SettingName<TextureFilter>> settingNames() {
 template <>
 std::span<const SettingName<Kernels>> settingNames() {
     return kKernels;
+}
+template <>
+std::span<const SettingName<ToneCurve>> settingNames() {
+    return kToneCurves;
 }
 
 } // namespace lavalight

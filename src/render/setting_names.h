@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "render/settings.h"
+#include "render/tone_settings.h"
 
 namespace lavalight {
 
@@ -35,6 +36,8 @@ template <>
 std::span<const SettingName<TextureFilter>> settingNames();
 template <>
 std::span<const SettingName<Kernels>> settingNames();
+template <>
+std::span<const SettingName<ToneCurve>> settingNames();
 
 template <typename Value>
 [[nodiscard]] std::string_view nameOf(Value value) {

@@ -135,6 +135,14 @@ TEST_F(RenderRefusal, OptionValuesThatCannotBe) {
         expectRefusal({"--exposure", value}, kWrongUsage, "--exposure");
 }
 
+TEST_F(RenderRefusal, ToneCurvesThatThereAreNotOrThatNothingIsShownBy) {
+    expectRefusal({"--png", "out.png", "--tonemap", "filmic"}, kWrongUsage,
+                  "filmic not in {aces,agx,linear,neutral}");
+    expectRefusal({"--tonemap", "agx"}, kWrongUsage, "--tonemap");
+    expectRefusal({"--tonemap", "linear", "-o", "out.exr"}, kWrongUsage, "--png");
+    expectRefusal({"--tonemap", "agx", "-o", "out.exr", "--frames", "0:2"}, kWrongUsage, "--png");
+}
+
 TEST_F(RenderRefusal, OptionValuesOutOfRange) {
     expectRefusal({"--spp", "0"}, kWrongUsage, "--spp: 0 is outside");
     expectRefusal({"--max-bounces", "1025"}, kWrongUsage, "--max-bounces: 1025 is outside");

@@ -1,6 +1,7 @@
 // `lavalight render`: files, metadata and reports of renders that succeed.
 #include <algorithm>
 #include <map>
+#include <set>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -89,6 +90,23 @@ TEST_F(Render, ExposureBrightensThePngAndNotTheExr) {
     expectSuccess({"-o", "b.exr", "--png", "b.png", "--exposure", "2"});
     EXPECT_NE(readFile(folder_ / "a.png"), readFile(folder_ / "b.png"));
     expectEqualPixels(image("a.exr"), image("b.exr"));
+}
+
+TEST_F(Render, TonemapPicksTheCurveOfThePngAndLeavesTheExrAlone) {
+    std::set<std::string> pictures;
+    for (const char* curve : {"linear", "neutral", "agx", "aces"}) {
+        expectSuccess(
+            {"-o", "a.exr", "--png", "a.png", "--tonemap", curve, "--exposure", "1.5", "--report", "a.json"});
+        pictures.insert(readFile(folder_ / "a.png"));
+        const json png = json::parse(readFile(folder_ / "a.json")).at("png");
+        EXPECT_EQ(png, (json{{"tonemap", curve}, {"exposure", 1.5}}));
+    }
+    EXPECT_EQ(pictures.size(), 4u);
+    expectSuccess({"-o", "b.exr", "--png", "b.png", "--exposure", "1.5"});
+    EXPECT_TRUE(pictures.contains(readFile(folder_ / "b.png"))); // linear is the default
+    expectEqualPixels(image("a.exr"), image("b.exr"));
+    expectSuccess({"-o", "c.exr", "--report", "c.json"});
+    EXPECT_FALSE(json::parse(readFile(folder_ / "c.json")).contains("png"));
 }
 
 TEST_F(Render, SummaryIsOneLineOnStdout) {

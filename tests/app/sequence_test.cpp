@@ -55,7 +55,7 @@ class Sequence : public testing::Test {
 
 TEST_F(Sequence, EachFrameIsTheImageOfItsTime) {
     const ProgramResult all = render({"seen.glb", "--frames", "1:4", "--fps", "4", "-o", "out.exr", "--png",
-                                      "out.png", "--report", "out.json"});
+                                      "out.png", "--report", "out.json", "--tonemap", "agx"});
     ASSERT_EQ(all.exitCode, 0) << all.err;
     EXPECT_EQ(folder_.count(), 2 + 9);
     EXPECT_TRUE(std::filesystem::exists(folder_ / "out_0001.png"));
@@ -64,6 +64,7 @@ TEST_F(Sequence, EachFrameIsTheImageOfItsTime) {
     EXPECT_NE(pixels("out_0003.exr"), pixels("out_0001.exr"));
     const json report = json::parse(readFile(folder_ / "out_0003.json"));
     EXPECT_EQ(report.at("settings").at("at"), "0.75");
+    EXPECT_EQ(report.at("png").at("tonemap"), "agx");
     EXPECT_EQ(report.at("seconds").at("prepareKernels"), 0.0); // those of the first frame serve
 }
 

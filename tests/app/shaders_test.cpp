@@ -114,6 +114,25 @@ TEST_F(Shaders, EverySaveRendersAgainUnlessItIsBroken) {
     EXPECT_NE(result.err.find("changed: path"), std::string::npos) << result.err;
 }
 
+TEST_F(Shaders, ASavedToneCurveMakesThePictureAnew) {
+    ASSERT_EQ(run({"new-experiment", "mine", "lib/tone_map.glsl"}).exitCode, 0);
+    const std::string ours = readFile(folder_ / "mine/lib/tone_map.glsl");
+    const auto save = [&](const std::string& more) {
+        std::ofstream(folder_ / "mine/lib/tone_map.glsl") << ours + more;
+    };
+    RunningProgram program(renderInto("mine.exr", {"--png", "mine.png", "--shaders", "mine", "--watch"}),
+                           folder_.path());
+    ASSERT_TRUE(program.waitForText("samples per pixel", 1)) << program.interrupt().err;
+    const std::string before = readFile(folder_ / "mine.png");
+    save("this is no shader\n");
+    ASSERT_TRUE(program.waitForText("mine/lib/tone_map.glsl:")) << program.interrupt().err;
+    EXPECT_EQ(readFile(folder_ / "mine.png"), before);
+    save("#define encodeSrgb(linear) (1.0 - encodeSrgb(linear))\n");
+    ASSERT_TRUE(program.waitForText("samples per pixel", 2)) << program.interrupt().err;
+    EXPECT_NE(readFile(folder_ / "mine.png"), before);
+    EXPECT_NE(program.interrupt().err.find("changed: tonemap"), std::string::npos);
+}
+
 // The first image takes seconds; meanwhile there come a note, a broken shader, and a sound one.
 TEST_F(Shaders, ARenderUnderWayIsEndedByOtherKernelsAlone) {
     experiment("// Russian", "// Russian");

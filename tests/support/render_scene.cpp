@@ -107,11 +107,14 @@ void expectSameMean(const Rendering& a, const Rendering& b, uint32_t tileSize) {
 }
 
 std::string writeDifference(const Image& a, const Image& b, float scale, const std::string& name) {
-    Image difference(a.width, a.height);
-    for (size_t i = 0; i < a.pixels.size(); ++i)
-        difference.pixels[i] = 0.5f + scale * (a.pixels[i] - b.pixels[i]);
+    std::vector<uint32_t> difference(a.pixels.size());
+    for (size_t i = 0; i < difference.size(); ++i) {
+        const glm::vec3 shown = glm::clamp(0.5f + scale * (a.pixels[i] - b.pixels[i]), 0.0f, 1.0f);
+        const glm::uvec3 code(255.0f * shown + 0.5f);
+        difference[i] = code.r | code.g << 8 | code.b << 16;
+    }
     const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / (name + "-difference.png");
-    writePng(path, difference, 0.0f);
+    writePng(path, a.width, a.height, difference);
     return path.string();
 }
 

@@ -59,7 +59,8 @@ void expectEveryPixel(const RenderResult& result, const glm::dvec3& expected);
 // Fails unless both images may have the same mean: tile by tile, and as a whole.
 void expectSameMean(const Rendering& a, const Rendering& b, uint32_t tileSize);
 
-// Writes 0.5 + scale (a - b) as a PNG into the folder for temporary files; returns its path.
+// Writes 0.5 + scale (a - b), as signals of a display, as a PNG into the folder for temporary files; returns
+// its path.
 [[nodiscard]] std::string writeDifference(const Image& a, const Image& b, float scale,
                                           const std::string& name);
 

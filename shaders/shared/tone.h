@@ -1,0 +1,27 @@
+// What the tonemap kernel is told: the curve from radiance to the display, and where in the film it is.
+#ifndef LAVALIGHT_SHARED_TONE_H
+#define LAVALIGHT_SHARED_TONE_H
+
+#include "shared/types.h"
+
+LAVALIGHT_SHARED_BEGIN
+
+// Push constants.
+struct ToneRange {
+    uint bandPixels; // of the film at hand
+    uint firstPixel; // of this dispatch, in the band
+    float scale;     // of radiance: 2^exposure
+};
+
+// A specialisation constant: the curve picks code.
+#define CONSTANT_TONE_CURVE 0
+
+// Its values; ToneCurve in C++ uses the same numbers.
+SHARED_CONST uint kToneLinear = 0u;
+SHARED_CONST uint kToneNeutral = 1u;
+SHARED_CONST uint kToneAgx = 2u;
+SHARED_CONST uint kToneAces = 3u;
+
+LAVALIGHT_SHARED_END
+
+#endif

@@ -1,0 +1,26 @@
+// The options of what a display shows of an image.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include "render/tone_settings.h"
+
+namespace lavalight {
+
+// Declares --tonemap and --exposure on a parser. Must outlive the parsing; the parser points into it.
+class ToneOptions {
+  public:
+    explicit ToneOptions(CLI::App& parser);
+    ToneOptions(const ToneOptions&) = delete;
+    ToneOptions& operator=(const ToneOptions&) = delete;
+
+    // Throws UsageError for an exposure that is none.
+    [[nodiscard]] ToneSettings settings() const;
+    [[nodiscard]] bool isCurveGiven() const;
+
+  private:
+    CLI::App* parser_; // asked which options were given
+    ToneSettings tone_;
+};
+
+} // namespace lavalight

@@ -1,0 +1,72 @@
+#include "render/tone_mapper.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "gpu/warm_up.h"
+#include "render/setting_names.h"
+#include "shared/wavefront.h"
+
+namespace lavalight {
+namespace {
+
+constexpr const char* kKernelName = "tonemap";
+constexpr const char* kDisplayName = "display";
+
+// Finite, so that black stays black whatever the exposure.
+float scaleOf(float exposureStops) {
+    return std::min(std::exp2(exposureStops), std::numeric_limits<float>::max());
+}
+
+} // namespace
+
+ToneMapper::ToneMapper(gpu::Device& device, const KernelSource& source)
+    : device_(&device), display_(device, kDisplayName, 0, gpu::BufferUse::readback), commands_(device) {
+    const gpu::KernelCode code = source(kKernelName);
+    std::vector<const gpu::Kernel*> made;
+    for (const SettingName<ToneCurve>& curve : settingNames<ToneCurve>()) {
+        const std::array<gpu::SpecialisationConstant, 1> constants{
+            {{CONSTANT_TONE_CURVE, static_cast<uint32_t>(curve.value)}}};
+        made.push_back(&kernels_.try_emplace(curve.value, device, code, constants).first->second);
+    }
+    gpu::warmUp(device, made, {});
+}
+
+std::vector<uint32_t> ToneMapper::map(const Film& film, const ToneSettings& tone) {
+    std::vector<uint32_t> pixels(size_t{film.width()} * film.height());
+    for (const FilmBand& band : film.bands()) {
+        const size_t first = size_t{band.firstRow} * film.width();
+        mapBand(band.sums, kernels_.at(tone.curve), scaleOf(tone.exposure),
+                std::span(pixels).subspan(first, size_t{band.rows} * film.width()));
+    }
+    return pixels;
+}
+
+bool ToneMapper::isChanged(const KernelSource& source) const {
+    return source(kKernelName).spirv != kernels_.begin()->second.code().spirv;
+}
+
+void ToneMapper::mapBand(const gpu::Buffer& sums, const gpu::Kernel& kernel, float scale,
+                         std::span<uint32_t> pixels) {
+    if (display_.bytes() < pixels.size_bytes())
+        display_ = gpu::Buffer(*device_, kDisplayName, pixels.size_bytes(), gpu::BufferUse::readback);
+    gpu::ResourceTable resources;
+    resources.set("Film", sums);
+    resources.set("Display", display_);
+    // Bound anew each time, for some microseconds: nothing here refers to a film that is gone.
+    const gpu::BoundKernel bound(*device_, kernel, resources);
+    const auto count = static_cast<uint32_t>(pixels.size());
+    const uint32_t groups = (count + kWorkgroupSize - 1) / kWorkgroupSize;
+    const uint32_t most = device_->limits().maxGroups;
+    commands_.begin();
+    for (uint32_t first = 0; first < groups; first += most) {
+        const ToneRange range{count, first * kWorkgroupSize, scale};
+        commands_.dispatch(bound, std::min(most, groups - first), std::as_bytes(std::span(&range, 1)));
+    }
+    commands_.submitAndWait();
+    display_.download(std::as_writable_bytes(pixels));
+}
+
+} // namespace lavalight

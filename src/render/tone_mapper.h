@@ -1,0 +1,45 @@
+// The film as pixels for a display, computed on the device.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <span>
+#include <vector>
+
+#include "gpu/buffer.h"
+#include "gpu/commands.h"
+#include "gpu/device.h"
+#include "gpu/kernel.h"
+#include "render/film.h"
+#include "render/kernel_source.h"
+#include "render/tone_settings.h"
+
+namespace lavalight {
+
+// Runs shaders/kernels/tonemap.comp over a film.
+class ToneMapper {
+  public:
+    // Compiles the kernel for every curve. The device must outlive the mapper. Throws Error as `source` does.
+    explicit ToneMapper(gpu::Device& device, const KernelSource& source = embeddedKernel);
+
+    // sRGB pixels, rows from the top, each R, G, B, 255 from its lowest byte up. Pixels without samples are
+    // black. Device memory is kept from call to call, as much as the largest band so far took. Not while a
+    // submission writes the film.
+    [[nodiscard]] std::vector<uint32_t> map(const Film& film, const ToneSettings& tone);
+
+    // Whether the kernel's code is another by `source`. Throws Error as `source` does.
+    [[nodiscard]] bool isChanged(const KernelSource& source) const;
+
+    // Device time of all calls so far; empty on a queue without timestamps.
+    [[nodiscard]] const gpu::KernelTimes& times() const { return commands_.times(); }
+
+  private:
+    void mapBand(const gpu::Buffer& sums, const gpu::Kernel& kernel, float scale, std::span<uint32_t> pixels);
+
+    gpu::Device* device_;
+    std::map<ToneCurve, gpu::Kernel> kernels_;
+    gpu::Buffer display_; // pixels of one band
+    gpu::Commands commands_;
+};
+
+} // namespace lavalight
