@@ -55,6 +55,16 @@ bool hasPunctualLight(const Scene& scene) {
                        [](const PunctualLight& light) { return light.intensity != glm::vec3(0.0f); });
 }
 
+// The default material stands last. Where nothing wears it, it is not the file's; one material stays in any
+// case.
+void dropUnwornDefault(Scene& scene) {
+    const size_t last = scene.materials.size() - 1;
+    const bool isWorn = std::any_of(scene.meshes.begin(), scene.meshes.end(),
+                                    [&](const Mesh& mesh) { return mesh.material == last; });
+    if (!isWorn && last > 0)
+        scene.materials.pop_back();
+}
+
 Scene buildScene(const GltfDocument& document, const ImportOptions& options) {
     checkAccessors(document);
     GltfNotes notes;
@@ -70,6 +80,7 @@ Scene buildScene(const GltfDocument& document, const ImportOptions& options) {
     scene.materials = readMaterials(document, notes);
     scene.pictures = readPictures(document, scene.materials, notes);
     scene.meshes = readMeshes(document, nodes, scene.materials, notes);
+    dropUnwornDefault(scene);
     scene.bounds = boundsOf(scene.meshes);
     scene.cameras = readCameras(document, nodes.shown, notes);
     if (scene.meshes.empty())

@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -65,6 +66,22 @@ TEST_F(Info, CountsWhatTheFileHolds) {
     EXPECT_EQ(info.at("bounds").at("lower"), json({0.0, 0.0, 0.0}));
     EXPECT_EQ(info.at("bounds").at("upper"), json({1.0, 1.0, 0.0}));
     EXPECT_GE(info.at("geometryBytes"), 3 * 12 + 12);
+}
+
+TEST_F(Info, ListsTheDefaultMaterialOnlyWhereAPrimitiveHasNoOther) {
+    json gltf = json::parse(kTriangle);
+    gltf["materials"][0]["name"] = "lamp";
+    const auto namesIn = [&] {
+        writeFileAtomically(folder_ / "named.gltf", gltf.dump());
+        const json info = json::parse(run({"info", "named.gltf", "--json"}).out);
+        std::vector<std::string> names;
+        for (const json& material : info.at("materials"))
+            names.push_back(material.at("name"));
+        return names;
+    };
+    EXPECT_EQ(namesIn(), std::vector<std::string>{"lamp"});
+    gltf["meshes"][0]["primitives"][0].erase("material");
+    EXPECT_EQ(namesIn(), (std::vector<std::string>{"lamp", "default"}));
 }
 
 TEST_F(Info, ListsTheLightsWithoutSize) {
