@@ -4,8 +4,11 @@
 
 // x, y: directional albedo of the GGX lobe is f0 * x + f90 * y at this cosine. From scene/albedo_table.glsl.
 vec2 specularAlbedoTerms(float cosTheta, float alpha);
+// What the lobe loses between its facets if these reflect everything: 1 - x - y.
+float specularMaskingLoss(float cosTheta, float alpha);
 // The same, averaged over the hemisphere by the cosine.
 vec2 specularAlbedoAverage(float alpha);
+float specularMaskingLossAverage(float alpha);
 // Of white sheen, which may exceed 1.
 float charlieAlbedo(float cosTheta, float alpha);
 
@@ -34,18 +37,14 @@ float uncovered(Surface s, vec3 w) {
     return max(0.0, 1.0 - dot(s.coating, specularAlbedoTerms(w.z, alphaTowards(s, w))));
 }
 
-float sumOf(vec2 v) {
-    return v.x + v.y;
-}
-
 // What a single reflection from white facets loses; of the metal's multiple scattering.
 float maskingLoss(Surface s, vec3 w) {
-    return max(0.0, 1.0 - sumOf(specularAlbedoTerms(w.z, alphaTowards(s, w))));
+    return specularMaskingLoss(w.z, alphaTowards(s, w));
 }
 
 // At least: an anisotropic lobe loses more than one of its smaller alpha.
 float averageMaskingLoss(vec2 alpha) {
-    return 1.0 - sumOf(specularAlbedoAverage(alpha.x));
+    return specularMaskingLossAverage(alpha.x);
 }
 
 // Share of light that the dielectric coating lets through to the diffuse base, (1 - E(wo)) (1 - E(wi)) / (1 - Eavg): the

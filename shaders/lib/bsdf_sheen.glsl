@@ -2,11 +2,10 @@
 // Based on: Estevez, Kulla, "Production Friendly Microfacet Sheen BRDF", SIGGRAPH 2017 course notes; KHR_materials_sheen.
 #include "lib/constants.glsl"
 #include "lib/warp.glsl"
-#include "shared/scene.h"
 
-// Below it, about 0.1, the lobe is a rim that no image resolves, and the authors' fit of masking reflects several times what
-// it receives. A row of the albedo table, which then interpolates exactly there.
-const float kLeastSheenRoughness = 3.0 / float(kAlbedoRoughnesses - 1u);
+// Below it the lobe is a rim that no image resolves, and the authors' fit of masking reflects several times what
+// it receives.
+const float kLeastSheenRoughness = 0.1;
 
 struct Sheen {
     vec3 color;

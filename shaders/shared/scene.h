@@ -17,7 +17,7 @@ struct TriangleNormals {
     uint n0;
     uint n1;
     uint n2;
-    uint unused;
+    uint solid; // number of its mesh, from 1 on, where that is the boundary of a volume; else 0
 };
 
 // Eleven texels a material; the members mean what those of C++'s Material mean. 0 turns a lobe off.
@@ -151,12 +151,17 @@ SHARED_CONST uint kFeatureAnisotropy = 0x80000u;
 SHARED_CONST uint kFeatureIridescence = 0x100000u;
 SHARED_CONST uint kFeatureDiffuseTransmission = 0x200000u;
 SHARED_CONST uint kFeatureSpecialCamera = 0x400000u; // with a lens, or a panorama
-SHARED_CONST uint kAllFeatures = 0x7fffffu;
+SHARED_CONST uint kFeatureSolids = 0x800000u; // two solids that may overlap
+SHARED_CONST uint kAllFeatures = 0xffffffu;
 
-// Directional albedo of the GGX lobe, tabulated over (sqrt(cosine), roughness); a row ends with its cosine-weighted average.
+// Directional albedos of the GGX lobe and of sheen, tabulated over angle and roughness (lib/albedo_grid.glsl), row by row;
+// then the cosine-weighted averages of the GGX lobe's, kAveragesPerRow to the distance of two rows.
 SHARED_CONST uint kAlbedoCosines = 64u;
 SHARED_CONST uint kAlbedoRoughnesses = 32u;
-SHARED_CONST uint kAlbedoRow = kAlbedoCosines + 1u;
+SHARED_CONST uint kAveragesPerRow = 4u;
+SHARED_CONST uint kAlbedoEntries = kAlbedoCosines * kAlbedoRoughnesses;
+SHARED_CONST uint kAlbedoAverages = kAveragesPerRow * (kAlbedoRoughnesses - 1u) + 1u;
+SHARED_CONST float kLeastTabulatedRoughness = 0.0316227766f; // alpha is kSmoothAlpha; smooth lobes ask for no table
 
 LAVALIGHT_SHARED_END
 

@@ -1,4 +1,4 @@
-// The table behind the coupling of diffuse and specular: directional albedo of the GGX lobe.
+// The table behind the coupling of diffuse and specular: directional albedos of the GGX lobe and of sheen.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace lavalight {
 
-// Layout: kAlbedoRoughnesses rows of kAlbedoRow texels (shaders/shared/scene.h), the two terms in x and y.
+// Layout: shaders/shared/scene.h; what an entry holds: shaders/scene/albedo_table.glsl.
 struct AlbedoTable {
     gpu::Buffer buffer;
     std::vector<uint32_t>

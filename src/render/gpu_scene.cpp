@@ -5,9 +5,11 @@
 namespace lavalight {
 namespace {
 
-// Lambert surfaces never look into the table, whose kernel takes a quarter of a second to compile and run.
+// Lambert surfaces and mirrors never look into the table, whose kernel takes a quarter of a second to compile
+// and run.
 AlbedoTable albedoTableFor(gpu::Device& device, uint32_t features, const KernelSource& source) {
-    if ((features & (kFeatureSpecular | kFeatureGlass | kFeatureClearcoat | kFeatureSheen)) != 0)
+    const bool hasCoats = (features & (kFeatureSpecular | kFeatureClearcoat)) != 0;
+    if ((hasCoats && (features & kFeatureRoughLobes) != 0) || (features & kFeatureSheen) != 0)
         return makeAlbedoTable(device, source("albedo"));
     return {{device, "albedo table", 0, gpu::BufferUse::texels}, {}};
 }

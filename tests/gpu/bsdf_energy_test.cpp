@@ -24,8 +24,13 @@ struct Push { // as in the kernel
 };
 
 constexpr size_t kBatches = 128; // of 1024 samples each
+// Standard errors. One in 31,000 means lies further above what it estimates by chance; here are some 3,000.
+constexpr double kSigmas = 4.0;
+// Of a batch's sum in single precision: 1024 roundings of up to half a unit in the last place of 1024, in the
+// mean of 1.
+constexpr double kRounding = 3e-5;
 const std::vector<gpu::SpecialisationConstant> kMultipleScattering = {{CONSTANT_MULTIPLE_SCATTERING, 1}};
-const std::vector<float> kCosines = {1.0f, 0.9f, 0.7f, 0.5f, 0.3f, 0.2f, 0.1f, 0.05f, 0.02f, 0.005f};
+const std::vector<float> kCosines = {1.0f, 0.9f, 0.7f, 0.5f, 0.3f, 0.2f, 0.1f, 0.05f, 0.02f, 0.005f, 0.002f};
 
 std::vector<float> azimuthsOf(const MaterialRecord& record) {
     return record.anisotropy > 0.0f ? std::vector<float>{0.0f, 0.8f, 1.5707963f} : std::vector<float>{0.0f};
@@ -77,28 +82,26 @@ double largest(const glm::dvec3& v) {
 
 std::vector<TestMaterial> allMaterials() {
     std::vector<TestMaterial> all;
-    for (const auto& list : {roughMaterials(), smoothMaterials(), layeredMaterials(), tiltedCoats(),
-                             transmissiveMaterials(), solidMaterials(), smoothLayers(), smoothFilms()})
+    for (const auto& list :
+         {roughMaterials(), smoothMaterials(), layeredMaterials(), tiltedCoats(), transmissiveMaterials(),
+          solidMaterials(), smoothLayers(), smoothFilms(), whitesOfAllRoughnesses()})
         all.insert(all.end(), list.begin(), list.end());
     return all;
 }
 
 TEST_F(BsdfEnergyTest, NoSurfaceReflectsMoreThanItReceives) {
-    // The coupling reads tabulated albedos, which interpolation puts off by up to 0.007 (tests of the table).
-    constexpr double interpolation = 0.007;
     forEachAlbedo(allMaterials(), [](const TestMaterial&, float, const Albedo& albedo) {
-        EXPECT_LE(largest(albedo.mean), 1.0 + interpolation + 4.0 * albedo.standardError);
+        EXPECT_LE(largest(albedo.mean), 1.0 + kRounding + kSigmas * albedo.standardError);
     });
 }
 
-// The same error of the table, which now makes up for what the table says is lost.
 TEST_F(BsdfEnergyTest, MultipleScatteringAddsNoMoreThanIsLost) {
     std::vector<TestMaterial> metals = allMaterials();
     std::erase_if(metals, [](const TestMaterial& material) { return material.record.metallic == 0.0f; });
     forEachAlbedo(
         metals,
         [](const TestMaterial&, float, const Albedo& albedo) {
-            EXPECT_LE(largest(albedo.mean), 1.007 + 4.0 * albedo.standardError);
+            EXPECT_LE(largest(albedo.mean), 1.0 + kRounding + kSigmas * albedo.standardError);
         },
         kMultipleScattering);
 }
@@ -108,7 +111,7 @@ TEST_F(BsdfEnergyTest, WhiteMetalReflectsEverythingInTheEnd) {
     for (const TestMaterial& material : allMaterials())
         if (material.name.starts_with("white metal") || material.name == "smooth white metal")
             metals.push_back(material);
-    ASSERT_EQ(metals.size(), 3u);
+    ASSERT_EQ(metals.size(), 8u);
     forEachAlbedo(
         metals,
         [](const TestMaterial&, float, const Albedo& albedo) {
@@ -136,7 +139,7 @@ TEST_F(BsdfEnergyTest, WhiteDielectricReflectsEverything) {
     for (const TestMaterial& material : allMaterials())
         if (material.name.starts_with("white dielectric") || material.name == "smooth white dielectric")
             whites.push_back(material);
-    ASSERT_EQ(whites.size(), 5u);
+    ASSERT_EQ(whites.size(), 10u);
     forEachAlbedo(whites, [](const TestMaterial&, float, const Albedo& albedo) {
         EXPECT_NEAR(albedo.mean.x, 1.0, 0.01 + 4.0 * albedo.standardError);
     });

@@ -1,5 +1,7 @@
 #include "support/test_materials.h"
 
+#include <fmt/format.h>
+
 #include "render/albedo_table.h"
 #include "render/kernel_source.h"
 
@@ -190,8 +192,25 @@ std::vector<TestMaterial> smoothFilms() {
             {"film over smooth solid", withFilm(glass(0.0f, true), 1.3f, 600.0f)}};
 }
 
+std::vector<TestMaterial> whitesOfAllRoughnesses() {
+    const glm::vec3 white(1.0f);
+    std::vector<TestMaterial> whites;
+    const auto add = [&](const char* name, float roughness, const MaterialRecord& record) {
+        whites.push_back({fmt::format("{}, roughness {}", name, roughness), record});
+    };
+    for (const float roughness : {0.02f, 0.033f, 0.06f, 0.17f, 0.63f}) {
+        add("white dielectric", roughness, dielectric(white, roughness));
+        add("white metal", roughness, metal(white, roughness));
+        add("clearcoat over white metal", roughness, clearcoated(metal(white, 0.0f), 1.0f, roughness));
+        add("white sheen over white", roughness, withSheen(lambert(white), white, roughness));
+        add("anisotropic white dielectric", roughness, anisotropic(dielectric(white, roughness), 0.3f));
+    }
+    return whites;
+}
+
 MaterialBuffers::MaterialBuffers(gpu::Device& device, std::span<const TestMaterial> materials)
-    : records_(uploadRecords(device, materials)), albedoTable_(makeAlbedoTable(device, embeddedKernel("albedo")).buffer) {}
+    : records_(uploadRecords(device, materials)),
+      albedoTable_(makeAlbedoTable(device, embeddedKernel("albedo")).buffer) {}
 
 gpu::ResourceTable MaterialBuffers::resources() const {
     gpu::ResourceTable table;

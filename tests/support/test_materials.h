@@ -34,6 +34,8 @@ struct TestMaterial {
 [[nodiscard]] std::vector<TestMaterial> smoothLayers();
 // Nothing but smooth lobes.
 [[nodiscard]] std::vector<TestMaterial> smoothFilms();
+// White, at roughnesses between the rows of the albedo table, from a mirror on.
+[[nodiscard]] std::vector<TestMaterial> whitesOfAllRoughnesses();
 
 // Materials and the albedo table on the device, under the names of scene/material.glsl.
 class MaterialBuffers {
