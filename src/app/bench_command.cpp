@@ -201,8 +201,8 @@ void limitThreads() {
 
 BenchCommand::BenchCommand(CLI::App& app) : Command(app, "bench", "Measure speed beside other programs") {
     parser().require_subcommand(1);
-    CLI::App& rays = *parser().add_subcommand(
-        "rays", "Camera, bounce and shadow rays per second, beside Embree on the same rays");
+    CLI::App& rays =
+        addSubcommand("rays", "Camera, bounce and shadow rays per second, beside Embree on the same rays");
     rays.add_option("scene", scene_, "A .gltf or .glb file, or a built-in name such as dense-300000")
         ->type_name("SCENE")
         ->required();

@@ -11,8 +11,7 @@ namespace lavalight {
 // since the parser points into it. main keeps one of each, parses, then runs the chosen one.
 class Command {
   public:
-    Command(CLI::App& app, const std::string& name, const std::string& description)
-        : parser_(*app.add_subcommand(name, description)) {}
+    Command(CLI::App& app, const std::string& name, const std::string& description);
     virtual ~Command() = default;
     Command(const Command&) = delete;
     Command& operator=(const Command&) = delete;
@@ -25,6 +24,8 @@ class Command {
 
   protected:
     [[nodiscard]] CLI::App& parser() { return parser_; }
+    // A command of this command.
+    [[nodiscard]] CLI::App& addSubcommand(const std::string& name, const std::string& description);
 
   private:
     CLI::App& parser_;

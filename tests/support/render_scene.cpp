@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <optional>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -33,6 +35,11 @@ void addWords(uint32_t* sum, const uint32_t* more, size_t count) {
     }
 }
 
+RenderResult resultOf(Renderer& renderer) {
+    renderer.render([](double) { return true; });
+    return {renderer.rendering(), renderer.film().readTallies(), wordsOf(renderer.film())};
+}
+
 } // namespace
 
 RenderSettings imageSettings(uint32_t width, uint32_t height, uint32_t samples) {
@@ -44,12 +51,23 @@ RenderSettings imageSettings(uint32_t width, uint32_t height, uint32_t samples) 
     return settings;
 }
 
+RenderResult renderScene(gpu::Device& device, const Scene& scene, const RenderSettings& settings) {
+    checkSettings(settings);
+    static std::optional<EstimatorKernels> kept; // younger than the device, and gone before it
+    std::optional<EstimatorKernels> earlier = std::exchange(kept, std::nullopt);
+    const Camera& camera = scene.cameras.front();
+    Renderer renderer = earlier ? Renderer(device, scene, camera, settings, std::move(*earlier))
+                                : Renderer(device, scene, camera, settings);
+    const RenderResult result = resultOf(renderer);
+    kept.emplace(renderer.releaseKernels());
+    return result;
+}
+
 RenderResult renderScene(gpu::Device& device, const Scene& scene, const RenderSettings& settings,
                          const KernelSource& kernels) {
     checkSettings(settings);
     Renderer renderer(device, scene, scene.cameras.front(), settings, kernels);
-    renderer.render([](double) { return true; });
-    return {renderer.rendering(), renderer.film().readTallies(), wordsOf(renderer.film())};
+    return resultOf(renderer);
 }
 
 std::vector<uint32_t> sumOfFilms(const std::vector<uint32_t>& a, const std::vector<uint32_t>& b) {

@@ -26,10 +26,14 @@ struct RenderResult {
 
 [[nodiscard]] RenderSettings imageSettings(uint32_t width, uint32_t height, uint32_t samples);
 
-// All samples of the settings, seen from the scene's first camera.
+// All samples of the settings, seen from the scene's first camera. The driver compiles for a second or more,
+// so the kernels are kept for the next render, and serve again if its settings and the scene's features are
+// the same.
 [[nodiscard]] RenderResult renderScene(gpu::Device& device, const Scene& scene,
-                                       const RenderSettings& settings,
-                                       const KernelSource& kernels = embeddedKernel);
+                                       const RenderSettings& settings);
+// With other kernels than those that the build embedded.
+[[nodiscard]] RenderResult renderScene(gpu::Device& device, const Scene& scene,
+                                       const RenderSettings& settings, const KernelSource& kernels);
 
 // Words of the film that both films' samples together would have left behind.
 [[nodiscard]] std::vector<uint32_t> sumOfFilms(const std::vector<uint32_t>& a,
