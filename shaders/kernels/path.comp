@@ -35,6 +35,8 @@ void main() {
     uint shadowRays = 0u;
     uint cutPaths = 0u;
     uint cutThroughput = 0u;
+    uint overlaps = 0u;
+    uint overlapPair = 0u;
     for (uint i = 0u; i < kVerticesPerDispatch && lane.slot < end; ++i) {
         if (lane.bounce == 0u) {
             lane.ray = cameraRayOf(lane.slot);
@@ -47,6 +49,8 @@ void main() {
             path.radiance += next.shadow.contribution;
         cutPaths += next.isCut ? 1u : 0u;
         cutThroughput += next.isCut ? fixedThroughput(path.throughput) : 0u;
+        overlaps += next.overlap > 0u ? 1u : 0u;
+        overlapPair = max(overlapPair, next.overlap);
         lane.ray = next.ray;
         if (next.goesOn) {
             ++indirectRays;
@@ -63,6 +67,7 @@ void main() {
     atomicAdd(counters.indirectRays, indirectRays);
     atomicAdd(counters.shadowRays, shadowRays);
     tallyCutPaths(cutPaths, cutThroughput);
+    tallyOverlaps(overlaps, overlapPair);
     if (lane.slot < end)
         atomicAdd(counters.unfinished, 1u);
 }

@@ -18,6 +18,8 @@ void main() {
     paths[slot] = path;
     if (next.isCut)
         tallyCutPaths(1u, fixedThroughput(path.throughput));
+    if (next.overlap > 0u)
+        tallyOverlaps(1u, next.overlap);
     if (next.wantsShadowRay)
         shadowRays[slot] = next.shadow;
     if (next.goesOn)

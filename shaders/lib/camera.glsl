@@ -32,5 +32,5 @@ Ray cameraRay(FrameParameters frame, vec2 position, vec2 lens) {
         else if (frame.projection == kProjectionPerspective && frame.lensRadius > 0.0)
             moveOnLens(frame, lens, origin, frame.cameraForward + onPlane, direction);
     }
-    return Ray(origin, kNoTriangle, direction, 0.0, 0u, uint[3](0u, 0u, 0u));
+    return Ray(origin, kNoTriangle, direction, 0.0, 0u, SolidsSeen(0u, 0u, kSolidsApart));
 }

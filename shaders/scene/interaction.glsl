@@ -20,6 +20,7 @@ struct Interaction {
     uint triangle; // id
     uint emitter;  // or kNoEmitter
     uint material;
+    uint solid;    // whose boundary this is, or 0; with kFeatureSolids
     vec3 b;        // barycentrics
     // With kFeatureTangents, all flipped with ng:
     vec3 tangent;     // unit length, towards growing u
@@ -86,6 +87,7 @@ Interaction makeInteraction(Hit hit, vec3 wo) {
     i.triangle = triangle.triangle;
     i.emitter = triangle.emitter;
     i.material = triangle.material & kMaterialMask;
+    i.solid = sceneHas(kFeatureSolids) ? texelFetch(triangleNormals, int(triangle.triangle)).w : 0u;
     i.b = b;
     i.tangent = i.bitangent = vec3(0.0);
     i.meshNormal = i.coatNormal = i.n;

@@ -3,6 +3,7 @@
 #include "lib/mis.glsl"
 #include "lib/onb.glsl"
 #include "lib/roulette.glsl"
+#include "lib/solids.glsl"
 #include "scene/dispersion.glsl"
 #include "scene/frame.glsl"
 #include "scene/interaction.glsl"
@@ -52,8 +53,8 @@ float missLightPdf(Ray ray) {
            environmentPdf(frame, ray.direction, ray.originCosine);
 }
 
-bool isTransmissiveSolid(MaterialRecord material) {
-    return (material.flags & kMaterialSolid) != 0u && (material.transmission > 0.0 || material.diffuseTransmission > 0.0);
+bool isTransmissiveSolid(MaterialRecord m) {
+    return (m.flags & kMaterialSolid) != 0u && (m.transmission > 0.0 || m.diffuseTransmission > 0.0);
 }
 
 // n and ng must agree about the side of wi.
@@ -85,7 +86,7 @@ bool nextRay(Vertex v, inout Path path, out Ray ray) {
         sampleBsdf(v.bsdf, v.wo, sample2D(v.key, kDimensionBsdf), sample1D(v.key, kDimensionLobe));
     const vec3 wi = toWorld(v.basis, next.wi);
     ray = Ray(offsetOrigin(v.surface.p, v.surface.pError, v.surface.ng, wi), v.surface.triangle, wi, next.wi.z,
-              v.receiver, uint[3](0u, 0u, 0u));
+              v.receiver, SolidsSeen(0u, 0u, kSolidsApart));
     path.throughput *= next.weight;
     path.bsdfPdf = next.pdf * (kMisSurvival != 0u ? v.survival : 1.0);
     path.etaScale *= next.eta * next.eta;
@@ -126,19 +127,39 @@ Vertex makeVertex(Interaction surface, MaterialRecord material, vec3 wo, SampleK
 struct NextRays {
     bool goesOn;
     bool isCut;     // by --max-bounces
+    uint overlap;   // packOverlap() of two solids that the path was within at once, it turns out; else 0
     float survival; // probability that roulette left the path; 1: nothing was drawn
     Ray ray;
     bool wantsShadowRay;
     ShadowRay shadow;
 };
 
-// The vertex where `ray` met the scene, after `bounce` others: the path collects what is emitted there, and is scattered.
-NextRays scatter(Hit hit, Ray ray, uint slot, uint bounce, inout Path path) {
+NextRays nothingNext() {
     NextRays next;
     next.goesOn = false;
     next.isCut = false;
+    next.overlap = 0u;
     next.survival = 1.0;
     next.wantsShadowRay = false;
+    return next;
+}
+
+// Tells the next ray which solids the path has entered, after a vertex `distance` from the one before.
+void noteSolids(Ray ray, Interaction surface, float distance, inout NextRays next) {
+    if (!sceneHas(kFeatureSolids))
+        return;
+    const vec3 e = surface.pError;
+    const float rounding = 32.0 * max(e.x, max(e.y, e.z)); // of vertices that were transformed, too
+    const bool passes = dot(next.ray.direction, surface.ng) < 0.0;
+    next.ray.solids = passes ? passSolid(ray.solids, surface.solid, surface.isFront, distance > rounding)
+                             : turnAmongSolids(ray.solids);
+    if (next.ray.solids.state == kSolidsOverlap && ray.solids.state != kSolidsOverlap)
+        next.overlap = packOverlap(next.ray.solids);
+}
+
+// The vertex where `ray` met the scene, after `bounce` others: the path collects what is emitted there, and is scattered.
+NextRays scatter(Hit hit, Ray ray, uint slot, uint bounce, inout Path path) {
+    NextRays next = nothingNext();
     if (hit.t == kInfinity) {
         const vec3 found = path.throughput * environmentRadiance(frame, ray.direction) *
                            foundLightWeight(path.bsdfPdf, missLightPdf(ray));
@@ -174,5 +195,6 @@ NextRays scatter(Hit hit, Ray ray, uint slot, uint bounce, inout Path path) {
 
     // ---- BSDF sampling and roulette ----
     next.goesOn = nextRay(vertex, path, next.ray) && survives(vertex, path, next.survival);
+    noteSolids(ray, surface, hit.t, next);
     return next;
 }

@@ -1,4 +1,5 @@
 // Counts for the ledger.
+#include "lib/features.glsl"
 #include "shared/bindings.h"
 #include "shared/film.h"
 
@@ -14,6 +15,14 @@ void addTally(uint which, uint amount) {
 // The mean of a path's throughput in units of 2^-16, at most 2^28: a lane's sum over the vertices of a dispatch fits a word.
 uint fixedThroughput(vec3 throughput) {
     return uint(min(dot(throughput, vec3(1.0 / 3.0)), 4096.0) * 65536.0 + 0.5);
+}
+
+// Paths that were within two solids at once, and the greatest pair of these: an example, the same in every run.
+void tallyOverlaps(uint paths, uint pair) {
+    if (sceneHas(kFeatureSolids) && paths > 0u) {
+        addTally(kTallyOverlaps, paths);
+        atomicMax(tallies[2u * kTallyOverlapPair], pair);
+    }
 }
 
 // Paths that --max-bounces ended although they could go on, and the sum of what they carried.

@@ -26,7 +26,9 @@ SHARED_CONST uint kTallyDropped = 0u;       // samples with NaN or infinity: cou
 SHARED_CONST uint kTallySaturated = 1u;     // sums that left the film's range
 SHARED_CONST uint kTallyCutPaths = 2u;      // paths that --max-bounces ended while they carried light
 SHARED_CONST uint kTallyCutThroughput = 3u; // sum of their mean throughput, in units of 2^-16
-SHARED_CONST uint kTallyCount = 4u;
+SHARED_CONST uint kTallyOverlaps = 4u;      // paths that were within two solids at once
+SHARED_CONST uint kTallyOverlapPair = 5u;   // no count: numbers of the meshes of two such solids, 16 bits each
+SHARED_CONST uint kTallyCount = 6u;
 
 LAVALIGHT_SHARED_END
 

@@ -50,6 +50,14 @@ class Stopwatch {
     StageTimes stages_;
 };
 
+void warnOfOverlaps(RenderReport& report, const Scene& scene) {
+    if (report.tallies.overlaps == 0)
+        return;
+    report.warnings.push_back(
+        fmt::format("{}; let solids touch, or leave a gap between them", overlapText(scene, report.tallies)));
+    spdlog::warn("{}", report.warnings.back());
+}
+
 void printSummary(const RenderReport& report) {
     fmt::print(
         "{}: {}x{}, {} samples per pixel in {:.2f} s on {} ({:.2f} M samples/s, {:.2f} M rays/s), bias "
@@ -241,6 +249,7 @@ void RenderCommand::write(Take& take, const Outputs& files, Session& session) co
     report.settings.changedShaders = session.settings.changedShaders;
     const Rendering rendering = take.renderer->rendering();
     fillResults(report, *take.renderer, *session.device, rendering, take.scene);
+    warnOfOverlaps(report, take.scene);
     if (!files.exr.empty())
         writeExr(files.exr, rendering, exrMetadata(report));
     if (!files.png.empty()) {

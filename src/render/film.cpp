@@ -119,6 +119,9 @@ FilmTallies Film::readTallies() const {
     tallies.cutPaths = pairOfWords(words, kTallyCutPaths);
     const double throughput = static_cast<double>(pairOfWords(words, kTallyCutThroughput)) / 65536.0;
     tallies.cutThroughput = tallies.cutPaths > 0 ? throughput / static_cast<double>(tallies.cutPaths) : 0.0;
+    tallies.overlaps = pairOfWords(words, kTallyOverlaps);
+    const auto pair = static_cast<uint32_t>(pairOfWords(words, kTallyOverlapPair));
+    tallies.overlapping = {pair >> 16, pair & 0xffffu};
     return tallies;
 }
 

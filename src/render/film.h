@@ -25,6 +25,9 @@ struct FilmTallies {
     uint64_t saturatedSums = 0;
     uint64_t cutPaths = 0;      // ended by --max-bounces while they carried light
     double cutThroughput = 0.0; // mean over the cut paths
+    uint64_t overlaps = 0;      // paths within two solids at once
+    std::array<uint32_t, 2>
+        overlapping{}; // meshes of two such solids, counted from 1; 65535: there or beyond
 };
 
 class Film {

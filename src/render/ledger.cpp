@@ -7,6 +7,25 @@
 
 namespace lavalight {
 
+namespace {
+
+std::string nameOfSolid(const Scene& scene, uint32_t number) {
+    constexpr uint32_t kBeyond = 0xffffu;
+    return number > 0 && number < kBeyond && number <= scene.meshes.size()
+               ? fmt::format("\"{}\"", scene.meshes[number - 1].name)
+               : "a mesh";
+}
+
+} // namespace
+
+std::string overlapText(const Scene& scene, const FilmTallies& tallies) {
+    return fmt::format(
+        "solids (KHR_materials_volume) overlap or have holes, such as {} and {}: {} paths were within two "
+        "at once, where neither medium is right",
+        nameOfSolid(scene, tallies.overlapping[0]), nameOfSolid(scene, tallies.overlapping[1]),
+        tallies.overlaps);
+}
+
 std::vector<LedgerEntry> makeLedger(const Scene& scene, const RenderSettings& settings,
                                     const FilmTallies& tallies, StopReason stop) {
     std::vector<LedgerEntry> ledger;
@@ -25,6 +44,8 @@ std::vector<LedgerEntry> makeLedger(const Scene& scene, const RenderSettings& se
     if (tallies.cutPaths > 0)
         ledger.push_back({"cut-paths", fmt::format("{} paths ended by --max-bounces, mean throughput {:.4g}",
                                                    tallies.cutPaths, tallies.cutThroughput)});
+    if (tallies.overlaps > 0)
+        ledger.push_back({"overlapping-solids", overlapText(scene, tallies)});
     if (tallies.droppedSamples > 0)
         ledger.push_back(
             {"dropped-samples", fmt::format("{} samples were not finite", tallies.droppedSamples)});

@@ -49,12 +49,17 @@ std::vector<LeafTriangle> packLeafTriangles(const Bvh& bvh, std::span<const Tria
 std::vector<TriangleNormals> packNormals(const Scene& scene) {
     std::vector<TriangleNormals> packed;
     packed.reserve(scene.triangleCount());
-    for (const Mesh& mesh : scene.meshes)
+    for (size_t i = 0; i < scene.meshes.size(); ++i) {
+        const Mesh& mesh = scene.meshes[i];
+        const bool isSolid = boundsSolid(scene.materials[mesh.material]);
+        const uint32_t solid = isSolid ? static_cast<uint32_t>(i + 1) : 0u;
         for (const glm::uvec3& t : mesh.triangles)
-            packed.push_back(mesh.normals.empty() ? TriangleNormals{}
-                                                  : TriangleNormals{encodeOctahedral(mesh.normals[t.x]),
-                                                                    encodeOctahedral(mesh.normals[t.y]),
-                                                                    encodeOctahedral(mesh.normals[t.z]), 0});
+            packed.push_back(mesh.normals.empty()
+                                 ? TriangleNormals{0, 0, 0, solid}
+                                 : TriangleNormals{encodeOctahedral(mesh.normals[t.x]),
+                                                   encodeOctahedral(mesh.normals[t.y]),
+                                                   encodeOctahedral(mesh.normals[t.z]), solid});
+    }
     return packed;
 }
 

@@ -52,9 +52,17 @@ uint32_t extendedLobesOf(const Material& material) {
     return features;
 }
 
+Bounds boundsOf(const Mesh& mesh) {
+    Bounds bounds{mesh.positions.front(), mesh.positions.front()};
+    for (const glm::vec3& position : mesh.positions) {
+        bounds.lower = glm::min(bounds.lower, position);
+        bounds.upper = glm::max(bounds.upper, position);
+    }
+    return bounds;
+}
+
 bool attenuates(const Material& material) {
-    const bool isTransmissive = material.transmission > 0.0f || material.diffuseTransmission > 0.0f;
-    return isTransmissive && material.isSolid && material.attenuationDistance < kNoAttenuation &&
+    return boundsSolid(material) && material.attenuationDistance < kNoAttenuation &&
            material.attenuationColor != glm::vec3(1.0f);
 }
 
@@ -79,6 +87,25 @@ uint32_t featuresOf(const Mesh& mesh) {
 
 } // namespace
 
+bool boundsSolid(const Material& material) {
+    return material.isSolid && (material.transmission > 0.0f || material.diffuseTransmission > 0.0f);
+}
+
+bool solidsMayOverlap(const Scene& scene) {
+    std::vector<Bounds> boxes;
+    for (const Mesh& mesh : scene.meshes)
+        if (boundsSolid(scene.materials[mesh.material]) && !mesh.positions.empty())
+            boxes.push_back(boundsOf(mesh));
+    std::sort(boxes.begin(), boxes.end(),
+              [](const Bounds& a, const Bounds& b) { return a.lower.x < b.lower.x; });
+    for (size_t i = 0; i < boxes.size(); ++i)
+        for (size_t j = i + 1; j < boxes.size() && boxes[j].lower.x < boxes[i].upper.x; ++j)
+            if (glm::all(glm::lessThan(glm::max(boxes[i].lower, boxes[j].lower),
+                                       glm::min(boxes[i].upper, boxes[j].upper))))
+                return true;
+    return false;
+}
+
 uint32_t sceneFeatures(const Scene& scene, const Lights& lights) {
     uint32_t features = 0;
     std::vector<bool> isWorn(scene.materials.size(), false);
@@ -91,6 +118,7 @@ uint32_t sceneFeatures(const Scene& scene, const Lights& lights) {
     const std::vector<bool> transparent = transparentMeshes(scene);
     features |=
         std::find(transparent.begin(), transparent.end(), true) != transparent.end() ? kFeatureAlpha : 0u;
+    features |= solidsMayOverlap(scene) ? kFeatureSolids : 0u;
     features |= lights.emitters.list.empty() ? 0u : kFeatureTriangleLights;
     features |= lights.punctuals.empty() ? 0u : kFeaturePunctualLights;
     if (lights.environmentRadiance != glm::vec3(0.0f))

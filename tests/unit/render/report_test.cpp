@@ -21,11 +21,15 @@ TEST(Ledger, UnbiasedImageHasNoEntry) {
 TEST(Ledger, NamesEveryCauseWithItsFigures) {
     Scene scene;
     scene.ignoredExtensions = {"KHR_a", "EXT_b"};
-    const auto ledger = makeLedger(scene, RenderSettings(), {11, 22, 33, 0.25}, StopReason::samples);
-    ASSERT_EQ(ledger.size(), 4u);
+    scene.meshes.resize(2);
+    scene.meshes[1].name = "ice";
+    const FilmTallies tallies{11, 22, 33, 0.25, 44, {2, 65535}};
+    const auto ledger = makeLedger(scene, RenderSettings(), tallies, StopReason::samples);
+    ASSERT_EQ(ledger.size(), 5u);
     const std::map<std::string, std::string> figures{{"dropped-samples", "11"},
                                                      {"saturated-sums", "22"},
                                                      {"cut-paths", "33"},
+                                                     {"overlapping-solids", "\"ice\" and a mesh: 44 paths"},
                                                      {"ignored-extensions", "KHR_a, EXT_b"}};
     for (const LedgerEntry& entry : ledger)
         EXPECT_NE(entry.detail.find(figures.at(entry.cause)), std::string::npos)

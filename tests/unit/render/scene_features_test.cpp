@@ -127,6 +127,27 @@ TEST(SceneFeatures, OnlySolidGlassDisperses) {
     EXPECT_EQ(featuresOf(glass), kFeatureGlass | kFeatureRoughLobes | kFeatureDispersion);
 }
 
+TEST(SceneFeatures, SolidsMayOverlapWhereTheirBoxesDo) {
+    Material glass = lambert();
+    glass.isSolid = true;
+    glass.diffuseTransmission = 0.5f;
+    Scene scene;
+    scene.materials = {lambert(), glass};
+    const auto addBox = [&](uint32_t material, float from, float to) {
+        Mesh mesh;
+        mesh.material = material;
+        mesh.positions = {glm::vec3(from), glm::vec3(to)};
+        scene.meshes.push_back(mesh);
+    };
+    addBox(1, 0.0f, 1.0f);
+    addBox(1, 1.0f, 2.0f); // touches it
+    addBox(0, 0.5f, 1.5f); // is none
+    EXPECT_FALSE(solidsMayOverlap(scene));
+    addBox(1, 1.75f, 3.0f);
+    EXPECT_TRUE(solidsMayOverlap(scene));
+    EXPECT_EQ(featuresOf(scene) & kFeatureSolids, kFeatureSolids);
+}
+
 TEST(SceneFeatures, LightsAndNormalsAreNamed) {
     Scene scene;
     scene.materials = {lambert()};
