@@ -32,8 +32,12 @@ void main() {
         return;
     const uint slot = 0u;
     const uint bounce = range.bounce;
-    const Ray ray = bounce == 0u ? cameraRayOf(slot) : rays[slot];
-    Path path = bounce == 0u ? kNewPath : paths[slot];
+    Ray ray = rays[slot];
+    Path path = paths[slot];
+    if (bounce == 0u) { // no choice between a buffer's record and another: glslang makes invalid SPIR-V of it
+        ray = cameraRayOf(slot);
+        path = kNewPath;
+    }
     const vec3 before = path.radiance;
     const Hit hit = trace(ray, slot, bounce);
     TracedVertex v = describe(ray, hit);

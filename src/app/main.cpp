@@ -23,6 +23,7 @@
 #include "app/presets_command.h"
 #include "app/render_command.h"
 #include "app/trace_command.h"
+#include "app/view_command.h"
 #include "base/error.h"
 #include "base/log.h"
 #include "base/version.h"
@@ -79,6 +80,7 @@ int parseAndRun(int argc, char** argv) {
     app.option_defaults()->always_capture_default();
     const auto commands = std::to_array<std::unique_ptr<Command>>({
         std::make_unique<RenderCommand>(app),
+        std::make_unique<ViewCommand>(app),
         std::make_unique<PresetsCommand>(app),
         std::make_unique<TraceCommand>(app),
         std::make_unique<LabCommand>(app),

@@ -18,6 +18,7 @@ enum class ToneCurve : uint32_t {
 struct ToneSettings {
     ToneCurve curve = ToneCurve::linear;
     float exposure = 0.0f; // stops: radiance is multiplied by 2^exposure before the curve
+    bool operator==(const ToneSettings&) const = default;
 };
 
 } // namespace lavalight

@@ -20,7 +20,7 @@ class Trace : public testing::Test {
         return runLavalight(arguments, folder_.path());
     }
     [[nodiscard]] json trace(std::vector<std::string> arguments) const {
-        arguments.insert(arguments.begin(), "trace");
+        arguments.insert(arguments.begin(), {"trace", "--validate"});
         const ProgramResult result = run(arguments);
         EXPECT_EQ(result.exitCode, 0) << result.err;
         return json::parse(result.out);

@@ -109,6 +109,10 @@ ProgramResult RunningProgram::interrupt() {
     waitUntilItCatchesInterrupts();
     if (!hasEnded())
         ::kill(process_, SIGINT);
+    return wait();
+}
+
+ProgramResult RunningProgram::wait() {
     while (!hasEnded())
         std::this_thread::sleep_for(kTurn);
     return result();

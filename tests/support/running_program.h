@@ -27,6 +27,9 @@ class RunningProgram {
     [[nodiscard]] bool waitForText(const std::string& text, int times = 1);
     // Which it does while it renders.
     void waitUntilItCatchesInterrupts();
+    [[nodiscard]] bool isRunning() { return !hasEnded(); }
+    // Waits for it to end by itself.
+    [[nodiscard]] ProgramResult wait();
     // Sends SIGINT as soon as the program catches it, and waits for the end.
     [[nodiscard]] ProgramResult interrupt();
 

@@ -1,0 +1,140 @@
+#include "view/camera_rig.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+#include <glm/gtc/quaternion.hpp>
+
+#include "scene/look_at.h"
+
+namespace lavalight {
+namespace {
+
+constexpr glm::vec3 kUp(0.0f, 1.0f, 0.0f);
+
+// Radians that the direction of view keeps from the poles, where left and right would change places.
+constexpr float kPoleMargin = 0.02f;
+
+// Vertical half extent of what is seen at distance 1 (perspective) or at all (orthographic).
+float halfHeight(const Camera& camera) {
+    return camera.projection == Projection::orthographic ? camera.halfHeight
+                                                         : std::tan(0.5f * camera.verticalFov);
+}
+
+float elevation(const glm::vec3& direction) {
+    return std::asin(std::clamp(direction.y, -1.0f, 1.0f));
+}
+
+// Right-handed and orthonormal again, whatever rounding did.
+void straighten(Camera& camera) {
+    camera.forward = glm::normalize(camera.forward);
+    camera.right = glm::normalize(glm::cross(camera.forward, camera.up));
+    camera.up = glm::cross(camera.right, camera.forward);
+}
+
+} // namespace
+
+CameraRig::CameraRig(const Camera& camera, const Bounds& scene) : camera_(camera) {
+    const float ahead = glm::dot(scene.center() - camera.position, camera.forward);
+    const float least = std::max(1e-3f * scene.radius(), 1e-6f);
+    pivot_ = camera.position + camera.forward * std::max(ahead, least);
+}
+
+float CameraRig::distance() const {
+    return glm::length(pivot_ - camera_.position);
+}
+
+void CameraRig::turn(const glm::vec2& angles, const glm::vec3& about) {
+    const float now = elevation(camera_.forward);
+    const float limit = 0.5f * std::numbers::pi_v<float> - kPoleMargin;
+    const float pitch = std::clamp(now + angles.y, std::min(-limit, now), std::max(limit, now)) - now;
+    const glm::quat turned = glm::angleAxis(-angles.x, kUp) * glm::angleAxis(pitch, camera_.right);
+    camera_.forward = turned * camera_.forward;
+    camera_.up = turned * camera_.up;
+    straighten(camera_);
+    camera_.position = about + turned * (camera_.position - about);
+}
+
+void CameraRig::orbit(const glm::vec2& angles) {
+    turn(angles, pivot_);
+}
+
+void CameraRig::look(const glm::vec2& angles) {
+    const glm::vec3 offset = pivot_ - camera_.position;
+    const float ahead = glm::dot(offset, camera_.forward);
+    turn(angles, camera_.position);
+    pivot_ = camera_.position + camera_.forward * ahead;
+}
+
+void CameraRig::pan(const glm::vec2& share) {
+    const float scale = camera_.projection == Projection::orthographic ? 1.0f : distance();
+    const float height = 2.0f * halfHeight(camera_) * scale;
+    fly({-share.x * height, share.y * height, 0.0f});
+}
+
+void CameraRig::dolly(float factor) {
+    if (camera_.projection == Projection::orthographic)
+        camera_.halfHeight *= factor;
+    else
+        camera_.position = pivot_ + (camera_.position - pivot_) * factor;
+}
+
+void CameraRig::fly(const glm::vec3& metres) {
+    const glm::vec3 way = camera_.right * metres.x + camera_.up * metres.y + camera_.forward * metres.z;
+    camera_.position += way;
+    pivot_ += way;
+}
+
+void CameraRig::centreOn(const glm::vec3& point) {
+    if (const auto aimed = lookAtCamera(camera_.position, point, kUp)) {
+        camera_.forward = aimed->forward;
+        camera_.right = aimed->right;
+        camera_.up = aimed->up;
+        pivot_ = point;
+    }
+}
+
+void CameraRig::focusOn(const glm::vec3& point) {
+    const float ahead = glm::dot(point - camera_.position, camera_.forward);
+    if (ahead > 0.0f)
+        camera_.focusDistance = ahead;
+}
+
+std::vector<std::pair<std::string, std::string>> cameraOptions(const CameraRig& rig) {
+    const Camera& camera = rig.camera();
+    const auto text = [](const glm::vec3& v) { return fmt::format("{},{},{}", v.x, v.y, v.z); };
+    std::vector<std::pair<std::string, std::string>> options{
+        {"look-from", text(camera.position)}, {"look-at", text(rig.pivot())}, {"up", text(camera.up)}};
+    if (camera.projection == Projection::perspective)
+        options.emplace_back("fov", fmt::format("{}", glm::degrees(camera.verticalFov)));
+    if (camera.lensRadius > 0.0f) {
+        options.emplace_back("aperture", fmt::format("{}", 2.0f * camera.lensRadius));
+        options.emplace_back("focus", fmt::format("{}", camera.focusDistance));
+    }
+    if (camera.projection == Projection::panorama)
+        options.emplace_back("panorama", "on");
+    return options;
+}
+
+std::optional<glm::vec2> project(const Camera& camera, float aspect, const glm::vec3& point) {
+    const glm::vec3 offset = point - camera.position;
+    const glm::vec3 local(glm::dot(offset, camera.right), glm::dot(offset, camera.up),
+                          glm::dot(offset, camera.forward));
+    if (camera.projection == Projection::panorama) {
+        // As lib/equirectangular.glsl: a panorama has the world's axes.
+        constexpr float kPi = std::numbers::pi_v<float>;
+        const glm::vec3 direction = glm::normalize(offset);
+        const float u = 0.5f + std::atan2(direction.z, direction.x) / (2.0f * kPi);
+        return glm::vec2(u, std::acos(std::clamp(direction.y, -1.0f, 1.0f)) / kPi);
+    }
+    const bool isPerspective = camera.projection == Projection::perspective;
+    if (isPerspective && local.z <= 0.0f)
+        return std::nullopt;
+    const float height = halfHeight(camera) * (isPerspective ? local.z : 1.0f);
+    const glm::vec2 plane(local.x / (height * aspect), local.y / height);
+    return glm::vec2(0.5f + 0.5f * plane.x, 0.5f - 0.5f * plane.y);
+}
+
+} // namespace lavalight

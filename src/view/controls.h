@@ -1,0 +1,30 @@
+// Mouse and keys that move the camera.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string_view>
+#include <utility>
+
+#include <glm/glm.hpp>
+
+#include "view/camera_rig.h"
+
+namespace lavalight {
+
+// What a user asks for with the mouse over the picture. Places are in screen coordinates.
+struct ControlAnswer {
+    bool hasMoved = false;            // the camera
+    bool isFlying = false;            // a key that moves it is held down
+    std::optional<glm::vec2> inspect; // clicked
+    std::optional<glm::vec2> centre;  // clicked twice
+    std::optional<glm::vec2> focus;   // clicked with F held down
+};
+
+// Reads what ImGui has of the input and leaves to the picture; `window` in screen coordinates.
+[[nodiscard]] ControlAnswer moveCamera(CameraRig& rig, const glm::vec2& window);
+
+// Keys and what they do, for the help.
+[[nodiscard]] std::span<const std::pair<std::string_view, std::string_view>> controlHelp();
+
+} // namespace lavalight

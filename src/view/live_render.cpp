@@ -1,0 +1,202 @@
+#include "view/live_render.h"
+
+#include <chrono>
+#include <exception>
+#include <utility>
+
+#include "base/error.h"
+#include "view/live_side.h"
+#include "view/save_image.h"
+
+namespace lavalight {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// Between pictures of an image that grows: tone mapping all pixels is a few per cent of that.
+constexpr std::chrono::milliseconds kPictureEvery(200);
+
+} // namespace
+
+// What the thread has in hand.
+struct LiveRender::Work {
+    explicit Work(gpu::Device& device)
+        : tone(device), sides{LiveSide(device, tone), LiveSide(device, tone)} {}
+
+    // The side that has had less time, of those that have work; null: none has.
+    [[nodiscard]] LiveSide* next() {
+        LiveSide* chosen = nullptr;
+        for (LiveSide* side : {&sides[0], isSplit ? &sides[1] : nullptr})
+            if (side != nullptr && side->hasWork() &&
+                (chosen == nullptr || side->seconds() < chosen->seconds()))
+                chosen = side;
+        return chosen;
+    }
+
+    ToneMapper tone;
+    std::array<LiveSide, 2> sides;
+    bool isSplit = false;
+    bool isNew = false; // no picture of it has been shown
+    Clock::time_point shown{};
+};
+
+LiveRender::LiveRender(const gpu::DeviceConfig& device, std::function<void()> wake)
+    : config_(device), device_(device), wake_(std::move(wake)), thread_([this] { run(); }) {}
+
+LiveRender::~LiveRender() {
+    {
+        const std::lock_guard lock(mutex_);
+        isEnding_ = true;
+    }
+    orders_.notify_one();
+    thread_.join();
+}
+
+void LiveRender::show(const LiveRequest& request) {
+    {
+        const std::lock_guard lock(mutex_);
+        wanted_ = request;
+    }
+    orders_.notify_one();
+}
+
+void LiveRender::inspect(const glm::uvec2& pixel, uint32_t sample) {
+    {
+        const std::lock_guard lock(mutex_);
+        tasks_.push_back({pixel, sample, {}, {}});
+    }
+    orders_.notify_one();
+}
+
+void LiveRender::save(const std::string& exr, const std::string& png) {
+    {
+        const std::lock_guard lock(mutex_);
+        tasks_.push_back({std::nullopt, 0, exr, png});
+    }
+    orders_.notify_one();
+}
+
+LiveNews LiveRender::news() {
+    const std::lock_guard lock(mutex_);
+    if (!failure_.empty())
+        throw Error(failure_);
+    LiveNews news = std::move(news_);
+    news_ = {};
+    news_.isReady = news.isReady;
+    news_.isFinished = news.isFinished;
+    return news;
+}
+
+void LiveRender::run() {
+    try {
+        loop();
+    } catch (const std::exception& error) {
+        const std::lock_guard lock(mutex_);
+        failure_ = error.what();
+    }
+    wake_();
+}
+
+// Renders wave after wave, and listens in between.
+void LiveRender::loop() {
+    Work work(device_);
+    while (takeOrders(work)) {
+        if (LiveSide* side = work.next())
+            side->step();
+        const bool isComplete = work.sides[0].isComplete() && (!work.isSplit || work.sides[1].isComplete());
+        const bool isDone = work.next() == nullptr;
+        if (isComplete && (work.isNew || isDone || Clock::now() - work.shown >= kPictureEvery))
+            publish(work);
+        device_.requireNoValidationMessages();
+    }
+}
+
+// Waits for something to do; false: it is over.
+bool LiveRender::takeOrders(Work& work) {
+    std::optional<LiveRequest> request;
+    std::vector<Task> tasks;
+    {
+        std::unique_lock lock(mutex_);
+        orders_.wait(lock, [&] { return isEnding_ || wanted_ || !tasks_.empty() || work.next() != nullptr; });
+        if (isEnding_)
+            return false;
+        request = std::exchange(wanted_, std::nullopt);
+        tasks = std::exchange(tasks_, {});
+        if (request)
+            news_.isReady = false;
+    }
+    if (request)
+        change(work, *request);
+    for (const Task& task : tasks)
+        perform(work, task);
+    return true;
+}
+
+// What fails for one request may do for another; only without a device nothing will.
+void LiveRender::change(Work& work, const LiveRequest& request) {
+    try {
+        work.isSplit = request.other.has_value();
+        work.isNew = true;
+        const KernelSource source = sourceOf(request.shaders);
+        if (work.tone.isChanged(source))
+            work.tone = ToneMapper(device_, source);
+        work.sides[0].show(request);
+        if (work.isSplit) {
+            LiveRequest other = request;
+            other.settings.estimator = *request.other;
+            other.settings.estimator.seed = request.settings.estimator.seed;
+            work.sides[1].show(other);
+        }
+    } catch (const gpu::DeviceLost&) {
+        throw;
+    } catch (const Error& error) {
+        report(error.what());
+    }
+}
+
+void LiveRender::perform(Work& work, const Task& task) {
+    if (!work.sides[0].isComplete())
+        return; // there is no image
+    try {
+        if (task.pixel) {
+            PixelInspection inspection = work.sides[0].inspect(*task.pixel, task.sample);
+            const std::lock_guard lock(mutex_);
+            news_.inspection = std::move(inspection);
+        } else {
+            std::string message = saveImage(work.sides[0], work.tone, device_, {task.exr, task.png});
+            const std::lock_guard lock(mutex_);
+            news_.messages.push_back(std::move(message));
+        }
+    } catch (const gpu::DeviceLost&) {
+        throw;
+    } catch (const Error& error) {
+        report(error.what());
+    }
+    wake_();
+}
+
+void LiveRender::publish(Work& work) {
+    std::array<std::optional<LiveView>, 2> views;
+    views[0] = work.sides[0].view();
+    if (work.isSplit)
+        views[1] = work.sides[1].view();
+    work.isNew = false;
+    work.shown = Clock::now();
+    {
+        const std::lock_guard lock(mutex_);
+        news_.views = std::move(views);
+        news_.isReady = !wanted_;
+        news_.isFinished = work.next() == nullptr;
+    }
+    wake_();
+}
+
+void LiveRender::report(const std::string& error) {
+    {
+        const std::lock_guard lock(mutex_);
+        news_.errors.push_back(error);
+    }
+    wake_();
+}
+
+} // namespace lavalight

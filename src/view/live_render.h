@@ -1,0 +1,83 @@
+// A render that goes on in a thread of its own while its user changes what it shows.
+#pragma once
+
+#include <array>
+#include <condition_variable>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "gpu/device.h"
+#include "view/live_picture.h"
+#include "view/live_request.h"
+
+namespace lavalight {
+
+// What there is to tell since the last time.
+struct LiveNews {
+    std::array<std::optional<LiveView>, 2> views; // of the request's settings, and of its `other` ones
+    std::optional<PixelInspection> inspection;
+    std::vector<std::string> messages; // of what was saved
+    std::vector<std::string> errors;   // of what could not be done; the image from before goes on, if it can
+    bool isReady = false;    // the newest request is what is rendered: nothing is being compiled or uploaded
+    bool isFinished = false; // all samples are taken
+};
+
+class LiveRender {
+  public:
+    // Opens the device; throws Error as that does. `wake` is called from the thread whenever there is news;
+    // it must return at once.
+    LiveRender(const gpu::DeviceConfig& device, std::function<void()> wake);
+    // Ends with the wave under way.
+    ~LiveRender();
+    LiveRender(const LiveRender&) = delete;
+    LiveRender& operator=(const LiveRender&) = delete;
+
+    // From then on the newest request counts.
+    void show(const LiveRequest& request);
+    // A path of a pixel of the window; the answer comes as news.
+    void inspect(const glm::uvec2& pixel, uint32_t sample);
+    // Writes the image as it is; empty names are left out.
+    void save(const std::string& exr, const std::string& png);
+
+    // Throws Error once the thread has ended for a failure that leaves no way to go on, such as a lost
+    // device.
+    [[nodiscard]] LiveNews news();
+
+    [[nodiscard]] const gpu::DeviceDescription& device() const { return device_.description(); }
+    [[nodiscard]] const gpu::DeviceConfig& config() const { return config_; }
+
+  private:
+    struct Task {
+        std::optional<glm::uvec2> pixel;
+        uint32_t sample = 0;
+        std::string exr;
+        std::string png;
+    };
+    struct Work;
+
+    void run();
+    void loop();
+    [[nodiscard]] bool takeOrders(Work& work);
+    void change(Work& work, const LiveRequest& request);
+    void publish(Work& work);
+    void perform(Work& work, const Task& task);
+    void report(const std::string& error);
+
+    gpu::DeviceConfig config_;
+    gpu::Device device_;
+    std::function<void()> wake_;
+    std::mutex mutex_; // of everything below
+    std::condition_variable orders_;
+    std::optional<LiveRequest> wanted_; // that is not being rendered yet
+    std::vector<Task> tasks_;
+    LiveNews news_;
+    std::string failure_; // that ended the thread
+    bool isEnding_ = false;
+    std::thread thread_; // last: started when all else is there
+};
+
+} // namespace lavalight

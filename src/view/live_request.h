@@ -1,0 +1,35 @@
+// What a live render shall show.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "render/settings.h"
+#include "render/shader_overlay.h"
+#include "render/tone_settings.h"
+#include "scene/scene.h"
+
+namespace lavalight {
+
+struct LiveRequest {
+    std::shared_ptr<const Scene> scene; // with its environment map
+    Camera camera;
+    RenderSettings settings;                // at the window's size
+    std::optional<EstimatorSettings> other; // rendered beside it, for comparison
+    std::shared_ptr<ShaderOverlay> shaders; // null: as built
+    ToneSettings tone;
+    bool isMoving = false; // a coarse picture soon, rather than a fine one later
+    bool operator==(const LiveRequest&) const = default;
+};
+
+// What a change of the request costs.
+enum class Restart {
+    nothing, // the image goes on; at most it is shown otherwise
+    image,   // from its first sample; maybe with other kernels
+    scene    // which goes to the device anew
+};
+
+// Of the image of `a`'s settings when `b` is asked for.
+[[nodiscard]] Restart restartsImage(const LiveRequest& a, const LiveRequest& b);
+
+} // namespace lavalight

@@ -1,0 +1,137 @@
+#include "view/live_side.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <utility>
+
+#include "base/error.h"
+#include "gpu/vulkan_error.h"
+
+namespace lavalight {
+namespace {
+
+// A wave that takes longer keeps what the user does waiting. Ten frames a second are seen as movement, and a
+// move is to be answered within one.
+constexpr double kFrameSeconds = 0.03;
+
+// Paths of the shortest wave: fewer do not fill the threads of a processor, whose dispatches cost 50 us each.
+constexpr uint32_t kFewestSlots = 4096;
+
+// The film of a moving camera has that many pixels to the window's one, in each direction, at most.
+constexpr std::array<uint32_t, 6> kCoarseness{1, 2, 3, 4, 6, 8};
+
+uint32_t coarse(uint32_t size, uint32_t by) {
+    return std::max(1u, (size + by - 1) / by);
+}
+
+} // namespace
+
+RenderSettings LiveSide::filmSettings(const LiveRequest& request) const {
+    RenderSettings settings = request.settings;
+    settings.isProgressive = true;
+    if (!request.isMoving)
+        return settings;
+    const auto fits = [&](uint32_t by) {
+        return secondsPerPath_ * coarse(settings.width, by) * coarse(settings.height, by) <= kFrameSeconds;
+    };
+    const auto found = std::find_if(kCoarseness.begin(), kCoarseness.end(), fits);
+    const uint32_t by = found == kCoarseness.end() ? kCoarseness.back() : *found;
+    settings.width = coarse(settings.width, by);
+    settings.height = coarse(settings.height, by);
+    return settings;
+}
+
+void LiveSide::show(const LiveRequest& request) {
+    const Restart restart = renderer_ ? restartsImage(*request_, request) : Restart::scene;
+    if (restart == Restart::image) {
+        restartImage(request);
+    } else if (restart == Restart::scene) {
+        try {
+            rebuild(request);
+        } catch (const gpu::DeviceLost&) {
+            throw;
+        } catch (const Error&) {
+            if (request_)
+                rebuild(*request_);
+            throw;
+        }
+    }
+    request_ = request;
+}
+
+void LiveSide::restartImage(const LiveRequest& request) {
+    const KernelSource source = sourceOf(request.shaders);
+    if (request_->shaders != request.shaders)
+        renderer_->reloadKernels(source);
+    renderer_->restart(*request.scene, request.camera, filmSettings(request), source);
+    startCounting();
+}
+
+// The BVH is built anew, too. The scene before is given up first: two may not fit.
+void LiveSide::rebuild(const LiveRequest& request) {
+    const KernelSource source = sourceOf(request.shaders);
+    const RenderSettings settings = filmSettings(request);
+    if (renderer_ && request_->shaders == request.shaders) {
+        EstimatorKernels kernels = renderer_->releaseKernels();
+        renderer_.reset();
+        renderer_ = std::make_unique<Renderer>(*device_, *request.scene, request.camera, settings,
+                                               std::move(kernels), source);
+    } else {
+        renderer_.reset();
+        renderer_ = std::make_unique<Renderer>(*device_, *request.scene, request.camera, settings, source);
+    }
+    startCounting();
+}
+
+void LiveSide::startCounting() {
+    statistics_ = {};
+    nextErrorAt_ = 2;
+}
+
+void LiveSide::step() {
+    if (!hasWork())
+        return;
+    const auto slots = static_cast<uint32_t>(std::min(kFrameSeconds / secondsPerPath_, 1e9));
+    const uint64_t before = renderer_->waves().rays().camera;
+    const auto start = std::chrono::steady_clock::now();
+    renderer_->step(std::max(slots, kFewestSlots));
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const auto paths = static_cast<double>(renderer_->waves().rays().camera - before);
+    // Follows the image: some parts of it cost more than others.
+    secondsPerPath_ += 0.3 * (seconds / std::max(paths, 1.0) - secondsPerPath_);
+    statistics_.seconds += seconds;
+    statistics_.samples = renderer_->position().samplesDone;
+    if (statistics_.samples >= nextErrorAt_ && renderer_->position().passSamples == 0) {
+        statistics_.error = errorEstimate(renderer_->rendering());
+        nextErrorAt_ = 2 * statistics_.samples; // its cost is that of reading the whole film
+    }
+}
+
+LiveView LiveSide::view() {
+    const WaveRenderer& waves = renderer_->waves();
+    statistics_.rays = waves.rays();
+    statistics_.paths = statistics_.rays.camera;
+    statistics_.kernels = waves.kernelTimes();
+    statistics_.raysPerBounce = waves.raysPerBounce();
+    const Film& film = renderer_->film();
+    return {{film.width(), film.height(), toneMapper_->map(film, request_->tone)}, statistics_};
+}
+
+PixelInspection LiveSide::inspect(const glm::uvec2& pixel, uint32_t sample) const {
+    PixelInspection inspection;
+    const Film& film = renderer_->film();
+    // A coarse film has a pixel for several of the window's.
+    inspection.pixel = pixel * glm::uvec2(film.width(), film.height()) /
+                       glm::uvec2(request_->settings.width, request_->settings.height);
+    const Rendering rendering = film.resolve();
+    const size_t at = size_t{inspection.pixel.y} * film.width() + inspection.pixel.x;
+    inspection.radiance = rendering.radiance.pixels[at];
+    inspection.variance = rendering.variance.pixels[at];
+    inspection.count = rendering.sampleCounts[at];
+    inspection.sample = sample;
+    inspection.path = tracePath(*device_, *renderer_, inspection.pixel, sample, sourceOf(request_->shaders));
+    return inspection;
+}
+
+} // namespace lavalight

@@ -1,0 +1,52 @@
+// One image that is rendered while it is looked at.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "gpu/device.h"
+#include "render/renderer.h"
+#include "render/tone_mapper.h"
+#include "view/live_picture.h"
+#include "view/live_request.h"
+
+namespace lavalight {
+
+class LiveSide {
+  public:
+    LiveSide(gpu::Device& device, ToneMapper& tone) : device_(&device), toneMapper_(&tone) {}
+
+    // Makes the image the one that is asked for. Whatever of the one before serves is kept. Throws Error with
+    // the image from before, which may have to start again, or with none where even that fails.
+    void show(const LiveRequest& request);
+    // Takes samples for about as long as a frame may take. Does nothing once all are taken.
+    void step();
+
+    [[nodiscard]] bool hasWork() const { return renderer_ && !renderer_->isDone(); }
+    // Whether each pixel has a sample.
+    [[nodiscard]] bool isComplete() const { return renderer_ && renderer_->position().samplesDone > 0; }
+    // Spent on the image so far.
+    [[nodiscard]] double seconds() const { return statistics_.seconds; }
+
+    [[nodiscard]] LiveView view();
+    [[nodiscard]] PixelInspection inspect(const glm::uvec2& pixel, uint32_t sample) const;
+    // There must be an image.
+    [[nodiscard]] const Renderer& renderer() const { return *renderer_; }
+    [[nodiscard]] const LiveRequest& request() const { return *request_; }
+
+  private:
+    [[nodiscard]] RenderSettings filmSettings(const LiveRequest& request) const;
+    void restartImage(const LiveRequest& request);
+    void rebuild(const LiveRequest& request);
+    void startCounting();
+
+    gpu::Device* device_;
+    ToneMapper* toneMapper_;
+    std::optional<LiveRequest> request_;
+    std::unique_ptr<Renderer> renderer_;
+    LiveStatistics statistics_;
+    double secondsPerPath_ = 1e-6; // a first guess; then measured
+    uint32_t nextErrorAt_ = 2;     // samples
+};
+
+} // namespace lavalight

@@ -1,0 +1,125 @@
+#include "view/panel.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "view/controls.h"
+#include "view/estimator_panel.h"
+#include "view/inspector_panel.h"
+#include "view/scene_panel.h"
+#include "view/statistics_panel.h"
+#include "view/widgets.h"
+
+namespace lavalight {
+namespace {
+
+constexpr ImGuiWindowFlags kPlain = ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings;
+const ImVec4 kErrorColor(1.0f, 0.5f, 0.4f, 1.0f);
+
+void drawEstimators(ViewState& view) {
+    if (ImGui::CollapsingHeader("Estimator", ImGuiTreeNodeFlags_DefaultOpen)) {
+        ImGui::PushID("left");
+        drawEstimator(view.settings.estimator);
+        choose("kernels", view.settings.kernels,
+               "One kernel for whole paths, or one for each step, with queues between them");
+        tick("compare", view.isSplit, "Renders other settings beside these, for the same time");
+        ImGui::PopID();
+    }
+    if (view.isSplit && ImGui::CollapsingHeader("Estimator on the right", ImGuiTreeNodeFlags_DefaultOpen)) {
+        ImGui::PushID("right");
+        drawEstimator(view.other);
+        ImGui::PopID();
+    }
+}
+
+} // namespace
+
+PanelAnswer
+drawPanel(ViewState& view,
+          const std::pair<std::optional<LiveStatistics>, std::optional<LiveStatistics>>& statistics) {
+    PanelAnswer answer;
+    const float em = ImGui::GetFontSize();
+    ImGui::SetNextWindowPos(ImVec2(em, em), ImGuiCond_FirstUseEver);
+    ImGui::SetNextWindowSize(ImVec2(24.0f * em, 36.0f * em), ImGuiCond_FirstUseEver);
+    if (ImGui::Begin("Lavalight", &view.showsPanel, ImGuiWindowFlags_NoSavedSettings)) {
+        ImGui::PushItemWidth(10.0f * em);
+        ImGui::TextDisabled("F1: keys, Tab: hides this");
+        if (ImGui::CollapsingHeader("Render", ImGuiTreeNodeFlags_DefaultOpen)) {
+            if (statistics.first)
+                drawStatistics(view.isSplit ? "left: " : "", *statistics.first);
+            if (view.isSplit && statistics.second)
+                drawStatistics("right: ", *statistics.second);
+            answer.wantsSave = ImGui::Button("save EXR and PNG");
+        }
+        drawEstimators(view);
+        if (ImGui::CollapsingHeader("Scene"))
+            answer.wantsScene = drawScene(view);
+        if (ImGui::CollapsingHeader("Screen", ImGuiTreeNodeFlags_DefaultOpen))
+            drawTone(view.tone);
+        ImGui::PopItemWidth();
+    }
+    ImGui::End();
+    return answer;
+}
+
+bool drawInspector(const PixelInspection& inspection, const Scene& scene, uint32_t& sample) {
+    bool isChanged = false;
+    const float em = ImGui::GetFontSize();
+    ImGui::SetNextWindowPos(ImVec2(em, em), ImGuiCond_FirstUseEver);
+    ImGui::SetNextWindowSize(ImVec2(44.0f * em, 16.0f * em), ImGuiCond_FirstUseEver);
+    if (ImGui::Begin("Pixel", nullptr, ImGuiWindowFlags_NoSavedSettings))
+        isChanged = drawInspection(inspection, scene, sample);
+    ImGui::End();
+    return isChanged;
+}
+
+void drawSplit(ViewState& view, const glm::vec2& window) {
+    const float x = view.splitAt * window.x;
+    const float reach = 0.5f * ImGui::GetFontSize();
+    ImGui::GetBackgroundDrawList()->AddLine(ImVec2(x, 0.0f), ImVec2(x, window.y),
+                                            IM_COL32(255, 255, 255, 160));
+    ImGui::SetNextWindowPos(ImVec2(x - reach, 0.0f));
+    ImGui::SetNextWindowSize(ImVec2(2.0f * reach, window.y));
+    ImGui::SetNextWindowBgAlpha(0.0f);
+    ImGui::Begin("split", nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                     ImGuiWindowFlags_NoBringToFrontOnFocus);
+    ImGui::SetCursorPos(ImVec2(0.0f, 0.0f));
+    ImGui::InvisibleButton("handle", ImVec2(2.0f * reach, window.y));
+    if (ImGui::IsItemActive())
+        view.splitAt = std::clamp(ImGui::GetIO().MousePos.x / window.x, 0.05f, 0.95f);
+    if (ImGui::IsItemHovered() || ImGui::IsItemActive())
+        ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
+    ImGui::End();
+}
+
+void drawKeys(bool& isOpen) {
+    if (ImGui::Begin("Keys", &isOpen, kPlain) && ImGui::BeginTable("keys", 2)) {
+        for (const auto& [key, does] : controlHelp()) {
+            ImGui::TableNextColumn();
+            ImGui::TextUnformatted(key.data(), key.data() + key.size());
+            ImGui::TableNextColumn();
+            ImGui::TextUnformatted(does.data(), does.data() + does.size());
+        }
+        ImGui::EndTable();
+    }
+    ImGui::End();
+}
+
+void drawMessages(std::vector<std::pair<std::string, bool>>& messages, const glm::vec2& window) {
+    if (messages.empty())
+        return;
+    bool isOpen = true;
+    const float em = ImGui::GetFontSize();
+    ImGui::SetNextWindowPos(ImVec2(0.5f * window.x, window.y - em), ImGuiCond_Always, ImVec2(0.5f, 1.0f));
+    ImGui::SetNextWindowSizeConstraints(ImVec2(10.0f * em, 0.0f), ImVec2(0.95f * window.x, 0.6f * window.y));
+    if (ImGui::Begin("Messages", &isOpen, kPlain))
+        for (const auto& [text, isError] : messages)
+            ImGui::TextColored(isError ? kErrorColor : ImVec4(1.0f, 1.0f, 1.0f, 1.0f), "%s", text.c_str());
+    ImGui::End();
+    if (!isOpen)
+        messages.clear();
+}
+
+} // namespace lavalight

@@ -1,0 +1,22 @@
+// Writes what is looked at.
+#pragma once
+
+#include <string>
+
+#include "gpu/device.h"
+#include "render/tone_mapper.h"
+#include "view/live_side.h"
+
+namespace lavalight {
+
+struct ImageFiles {
+    std::string exr; // empty: none
+    std::string png;
+};
+
+// The image so far: as `lavalight render` writes it, header and all, and as the window shows it. There must
+// be one. Says in a line what was written. Throws Error.
+[[nodiscard]] std::string saveImage(const LiveSide& side, ToneMapper& tone, const gpu::Device& device,
+                                    const ImageFiles& files);
+
+} // namespace lavalight

@@ -1,0 +1,51 @@
+// Reads scenes while the window goes on.
+#pragma once
+
+#include <functional>
+#include <future>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "render/settings.h"
+#include "scene/import_options.h"
+#include "scene/scene.h"
+
+namespace lavalight {
+
+// Which scene, which moment of it, under which light.
+struct SceneOrder {
+    std::string source;
+    ImportOptions import;
+    RenderSettings settings; // whose environment counts
+};
+
+class SceneLoader {
+  public:
+    // Throws Error for what is no scene.
+    using Load = std::function<Scene(const SceneOrder& order)>;
+    // `wake` is called, from another thread, when there is an outcome.
+    SceneLoader(Load load, std::function<void()> wake) : load_(std::move(load)), wake_(std::move(wake)) {}
+
+    // The newest order counts; it waits for the one under way.
+    void order(const SceneOrder& order);
+
+    struct Outcome {
+        SceneOrder order;
+        std::shared_ptr<const Scene> scene; // null: it failed
+        std::string error;
+    };
+    // Of an order, once.
+    [[nodiscard]] std::optional<Outcome> take();
+    [[nodiscard]] bool isBusy() const { return current_.valid(); }
+
+  private:
+    void start(const SceneOrder& order);
+
+    Load load_;
+    std::function<void()> wake_;
+    std::future<Outcome> current_;
+    std::optional<SceneOrder> next_;
+};
+
+} // namespace lavalight

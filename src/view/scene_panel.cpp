@@ -1,0 +1,110 @@
+#include "view/scene_panel.h"
+
+#include <algorithm>
+
+#include "view/widgets.h"
+
+namespace lavalight {
+namespace {
+
+void drawCameras(ViewState& view) {
+    if (ImGui::BeginCombo("camera", view.rig.camera().name.c_str())) {
+        for (const Camera& camera : view.scene->cameras)
+            if (ImGui::Selectable(camera.name.c_str(), camera.name == view.home.name)) {
+                view.home = camera;
+                view.rig = CameraRig(camera, view.scene->bounds);
+            }
+        ImGui::EndCombo();
+    }
+    explain("The scene's cameras; moving starts from the chosen one (Home goes back to it)");
+}
+
+void drawLens(ViewState& view) {
+    const Camera& camera = view.rig.camera();
+    if (camera.projection != Projection::perspective)
+        return;
+    float degrees = glm::degrees(camera.verticalFov);
+    if (ImGui::SliderFloat("field of view", &degrees, 5.0f, 150.0f, "%.0f deg", ImGuiSliderFlags_AlwaysClamp))
+        view.rig.setVerticalFov(glm::radians(degrees));
+    explain("The angle between the image's upper and lower edge");
+    const float most = 0.2f * view.rig.distance();
+    float aperture = 2.0f * camera.lensRadius;
+    if (ImGui::SliderFloat("aperture", &aperture, 0.0f, std::max(most, aperture), "%.4f m",
+                           ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic))
+        view.rig.setLens(0.5f * aperture);
+    explain("Diameter of the lens: what is out of focus is blurred by it. 0: a pinhole. F and a click focus");
+    if (camera.lensRadius > 0.0f) {
+        float focus = camera.focusDistance;
+        if (ImGui::DragFloat("focus", &focus, 0.01f * view.rig.distance(), 1e-4f, 1e9f, "%.3f m",
+                             ImGuiSliderFlags_AlwaysClamp))
+            view.rig.setFocusDistance(focus);
+        explain("Distance of what is sharp");
+    }
+}
+
+void drawEnvironment(ViewState& view) {
+    RenderSettings& settings = view.settings;
+    if (view.scene->environmentMap) {
+        ImGui::SliderFloat("map's rotation", &settings.environmentRotation, -180.0f, 180.0f, "%.0f deg");
+        explain("Turns the environment map about the vertical");
+    }
+    ImGui::DragFloat("environment", &settings.environmentIntensity, 0.01f, 0.0f, 1000.0f, "times %.2f",
+                     ImGuiSliderFlags_AlwaysClamp);
+    explain("Multiplies what shines where nothing is hit");
+}
+
+bool drawVariants(ViewState& view) {
+    if (view.scene->variants.empty())
+        return false;
+    bool isChanged = false;
+    const char* none = "as the file has it";
+    if (ImGui::BeginCombo("variant", view.import.variant.empty() ? none : view.import.variant.c_str())) {
+        const auto offer = [&](const char* label, const std::string& variant) {
+            if (ImGui::Selectable(label, variant == view.import.variant)) {
+                isChanged |= variant != view.import.variant;
+                view.import.variant = variant;
+            }
+        };
+        offer(none, "");
+        for (const std::string& variant : view.scene->variants)
+            offer(variant.c_str(), variant);
+        ImGui::EndCombo();
+    }
+    explain("Sets of materials that the file offers");
+    return isChanged;
+}
+
+bool drawMoment(ViewState& view) {
+    if (view.scene->animations.empty())
+        return false;
+    float seconds = static_cast<float>(view.import.seconds.value_or(0.0));
+    float last = 0.0f;
+    for (const Animation& animation : view.scene->animations)
+        last = std::max(last, animation.seconds);
+    const bool isMoved =
+        ImGui::SliderFloat("moment", &seconds, 0.0f, last, "%.2f s", ImGuiSliderFlags_AlwaysClamp);
+    explain("The time of the scene's animation");
+    if (isMoved)
+        view.import.seconds = seconds;
+    return isMoved;
+}
+
+} // namespace
+
+bool drawScene(ViewState& view) {
+    drawCameras(view);
+    drawLens(view);
+    drawEnvironment(view);
+    const bool hasVariant = drawVariants(view);
+    return drawMoment(view) || hasVariant;
+}
+
+void drawTone(ToneSettings& tone) {
+    choose("tone mapping", tone.curve,
+           "How radiance becomes a screen's colour: cut off at 1, or with a shoulder (Khronos PBR Neutral, "
+           "AgX, ACES). The EXR is not touched");
+    ImGui::SliderFloat("exposure", &tone.exposure, -10.0f, 10.0f, "%.1f stops");
+    explain("Each stop doubles the brightness shown. The EXR is not touched");
+}
+
+} // namespace lavalight

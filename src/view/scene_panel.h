@@ -1,0 +1,14 @@
+// What is shown of the scene: camera, lens, environment, variant, moment; and how bright.
+#pragma once
+
+#include "view/view_state.h"
+
+namespace lavalight {
+
+// Whether the scene must be read again for what was changed.
+bool drawScene(ViewState& view);
+
+// Tone mapping and exposure, which restart nothing.
+void drawTone(ToneSettings& tone);
+
+} // namespace lavalight

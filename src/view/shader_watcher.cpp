@@ -1,0 +1,78 @@
+#include "view/shader_watcher.h"
+
+#include <chrono>
+#include <utility>
+
+#include "base/error.h"
+#include "render/estimator_kernels.h"
+
+namespace lavalight {
+namespace {
+
+// How long the end of the program may wait for this thread.
+constexpr std::chrono::milliseconds kLookEvery(100);
+
+} // namespace
+
+ShaderWatcher::ShaderWatcher(std::string folder, std::shared_ptr<ShaderOverlay> first, Kernels kernels,
+                             std::function<void()> wake)
+    : folder_(std::move(folder)), wake_(std::move(wake)), saves_(folder_), overlay_(std::move(first)),
+      kernels_(kernels), thread_([this] { run(); }) {}
+
+ShaderWatcher::~ShaderWatcher() {
+    isEnding_ = true;
+    thread_.join();
+}
+
+std::optional<ShaderWatcher::Change> ShaderWatcher::take() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(change_, std::nullopt);
+}
+
+void ShaderWatcher::run() {
+    while (!isEnding_) {
+        const std::vector<std::string> files = saves_.wait(kLookEvery);
+        if (!files.empty())
+            look(files);
+    }
+}
+
+ShaderWatcher::Code ShaderWatcher::compile(ShaderOverlay& overlay) const {
+    Code code;
+    for (const std::string_view name : estimatorKernelNames(kernels_))
+        code[std::string(name)] = overlay.kernel(name).spirv;
+    for (const char* name : {"albedo", "tonemap"})
+        code[name] = overlay.kernel(name).spirv;
+    return code;
+}
+
+void ShaderWatcher::look(const std::vector<std::string>& files) {
+    Change change{files, {}, nullptr, {}};
+    try {
+        auto now = std::make_shared<ShaderOverlay>(folder_);
+        const Code before = compile(*overlay_);
+        for (auto& [name, code] : compile(*now))
+            if (before.at(name) != code)
+                change.kernels.push_back(name);
+        if (!change.kernels.empty())
+            overlay_ = change.overlay = std::move(now);
+    } catch (const Error& error) {
+        change.error = error.what();
+    }
+    keep(std::move(change));
+    wake_();
+}
+
+// One that nobody took yet becomes part of the newer one.
+void ShaderWatcher::keep(Change change) {
+    const std::lock_guard lock(mutex_);
+    if (change_) {
+        change.files.insert(change.files.end(), change_->files.begin(), change_->files.end());
+        change.kernels.insert(change.kernels.end(), change_->kernels.begin(), change_->kernels.end());
+        if (change.overlay == nullptr)
+            change.overlay = change_->overlay;
+    }
+    change_ = std::move(change);
+}
+
+} // namespace lavalight

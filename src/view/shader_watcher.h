@@ -1,0 +1,60 @@
+// Compiles shaders in the background whenever they are saved.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "base/file_watch.h"
+#include "render/settings.h"
+#include "render/shader_overlay.h"
+
+namespace lavalight {
+
+class ShaderWatcher {
+  public:
+    // `first`: the folder as it is now. `wake` is called, from another thread, when there is a change. Throws
+    // Error where there is no such folder.
+    ShaderWatcher(std::string folder, std::shared_ptr<ShaderOverlay> first, Kernels kernels,
+                  std::function<void()> wake);
+    ~ShaderWatcher();
+    ShaderWatcher(const ShaderWatcher&) = delete;
+    ShaderWatcher& operator=(const ShaderWatcher&) = delete;
+
+    // Which kernels matter from now on; not automatic.
+    void use(Kernels kernels) { kernels_ = kernels; }
+
+    struct Change {
+        std::vector<std::string> files;
+        std::vector<std::string> kernels;       // whose code is another
+        std::shared_ptr<ShaderOverlay> overlay; // null: nothing is to be done
+        std::string error;                      // of the newest save; empty: it compiles
+    };
+    [[nodiscard]] std::optional<Change> take();
+
+  private:
+    using Code = std::map<std::string, std::vector<uint32_t>>; // SPIR-V by kernel
+
+    void run();
+    void look(const std::vector<std::string>& files);
+    [[nodiscard]] Code compile(ShaderOverlay& overlay) const;
+    void keep(Change change);
+
+    std::string folder_;
+    std::function<void()> wake_;
+    FileWatch saves_;
+    std::shared_ptr<ShaderOverlay> overlay_; // the newest that compiles
+    std::atomic<Kernels> kernels_;
+    std::atomic<bool> isEnding_ = false;
+    std::mutex mutex_;
+    std::optional<Change> change_;
+    std::thread thread_; // last: started when all else is there
+};
+
+} // namespace lavalight

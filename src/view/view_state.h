@@ -1,0 +1,31 @@
+// What a user of the window looks at, and how.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "render/settings.h"
+#include "render/tone_settings.h"
+#include "scene/import_options.h"
+#include "scene/scene.h"
+#include "view/camera_rig.h"
+
+namespace lavalight {
+
+struct ViewState {
+    std::string source; // built-in name or file
+    ImportOptions import;
+    std::shared_ptr<const Scene> scene;
+    CameraRig rig;
+    Camera home; // that reset goes back to
+    RenderSettings settings;
+    ToneSettings tone;
+    bool isSplit = false;
+    EstimatorSettings other{}; // right of splitAt
+    float splitAt = 0.5f;      // share of the window's width
+    bool showsPanel = true;
+    bool showsKeys = false;
+    bool isFlying = false; // keys or mouse move the camera
+};
+
+} // namespace lavalight

@@ -1,0 +1,285 @@
+#include "view/viewer.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <imgui.h>
+
+#include "base/log.h"
+#include "render/renderer.h"
+#include "view/controls.h"
+#include "view/inspector_panel.h"
+#include "view/panel.h"
+
+namespace lavalight {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// A camera that has been still for so long is looked through at full resolution.
+constexpr std::chrono::milliseconds kStillAfter(200);
+
+Window makeWindow(const ViewState& view) {
+    return {fmt::format("Lavalight: {}", view.source), {view.settings.width, view.settings.height}};
+}
+
+// The first of NAME-1, NAME-2, ... of which no image is there.
+std::string freeName(const std::string& source) {
+    const std::string stem = std::filesystem::path(source).stem().string();
+    for (int number = 1;; ++number) {
+        const std::string name = fmt::format("{}-{}", stem, number);
+        if (!std::filesystem::exists(name + ".exr") && !std::filesystem::exists(name + ".png"))
+            return name;
+    }
+}
+
+bool isEnvironment(const std::string& path) {
+    const std::string extension = std::filesystem::path(path).extension().string();
+    return extension == ".hdr" || extension == ".exr" || extension == ".pic";
+}
+
+} // namespace
+
+Viewer::Viewer(ViewerConfig config)
+    : view_(std::move(config.view)), window_(makeWindow(view_)), presenter_(window_, config.device.validate),
+      render_(config.device, &Window::wake), loader_(std::move(config.load), &Window::wake),
+      shaders_(std::move(config.shaders)) {
+    view_.settings = resolveKernels(view_.settings, render_.device().isCpu);
+    if (!config.watched.empty())
+        watcher_.emplace(config.watched, shaders_, view_.settings.kernels, &Window::wake);
+    ImGui::GetIO().FontGlobalScale = window_.textScale() / window_.pixelsPerPoint().y;
+}
+
+void Viewer::run() {
+    while (!window_.isClosing()) {
+        window_.wait(patience());
+        receive();
+        presenter_.beginFrame();
+        takeKeys();
+        takeDrops();
+        move();
+        draw();
+        presenter_.endFrame(view_.isSplit ? view_.splitAt : 1.0f);
+        send();
+        updateTitle();
+        presenter_.requireNoValidationMessages();
+    }
+}
+
+// Seconds until the window is drawn again, whatever happens.
+double Viewer::patience() const {
+    if (view_.isFlying)
+        return 0.016;
+    return Clock::now() - lastMove_ < 2 * kStillAfter ? 0.05 : 0.5;
+}
+
+glm::vec2 Viewer::points() const {
+    return glm::vec2(window_.pixels()) / window_.pixelsPerPoint();
+}
+
+void Viewer::tell(const std::string& text, bool isError) {
+    if (isError)
+        spdlog::error("{}", text);
+    else
+        spdlog::info("{}", text);
+    messages_.emplace_back(text, isError);
+}
+
+void Viewer::receive() {
+    receiveScene();
+    receiveShaders();
+    LiveNews news = render_.news();
+    isReady_ = news.isReady;
+    isFinished_ = news.isFinished;
+    for (size_t side = 0; side < 2; ++side) {
+        if (!news.views[side])
+            continue;
+        presenter_.setPicture(side, news.views[side]->picture);
+        statistics_[side] = std::move(news.views[side]->statistics);
+    }
+    if (news.inspection)
+        takeInspection(*news.inspection);
+    for (const std::string& message : news.messages)
+        tell(message, false);
+    for (const std::string& error : news.errors)
+        tell(error, true);
+}
+
+void Viewer::receiveScene() {
+    const auto outcome = loader_.take();
+    if (!outcome)
+        return;
+    const bool isOther = outcome->order.source != view_.source;
+    if (!outcome->scene) {
+        tell(outcome->error, true);
+        view_.settings.environmentFile = sent_ ? sent_->settings.environmentFile : std::string();
+        return;
+    }
+    for (const std::string& warning : outcome->scene->warnings)
+        if (isOther)
+            tell(warning, false);
+    view_.scene = outcome->scene;
+    view_.source = outcome->order.source;
+    view_.import = outcome->order.import;
+    if (isOther) {
+        view_.home = view_.scene->cameras.front();
+        view_.rig = CameraRig(view_.home, view_.scene->bounds);
+    }
+    inspection_.reset();
+}
+
+void Viewer::receiveShaders() {
+    const auto change = watcher_ ? watcher_->take() : std::nullopt;
+    if (!change)
+        return;
+    messages_.clear(); // what they say of shaders from before is no longer so
+    if (!change->error.empty())
+        tell(change->error + "\nthe kernels from before go on", true);
+    if (change->overlay) {
+        shaders_ = change->overlay;
+        tell(fmt::format("saved {}, changed: {}", fmt::join(change->files, ", "),
+                         fmt::join(change->kernels, ", ")),
+             false);
+    }
+}
+
+void Viewer::takeInspection(const PixelInspection& inspection) {
+    const bool isHit =
+        !inspection.path.vertices.empty() && (inspection.path.vertices.front().triangle != kNoTriangle);
+    if (purpose_ == Purpose::look)
+        inspection_ = inspection;
+    else if (isHit && purpose_ == Purpose::centre)
+        view_.rig.centreOn(inspection.path.vertices.front().position);
+    else if (isHit)
+        view_.rig.focusOn(inspection.path.vertices.front().position);
+}
+
+void Viewer::takeKeys() {
+    for (const Window::KeyPress& press : window_.takeKeys()) {
+        const bool isControl = (press.modifiers & GLFW_MOD_CONTROL) != 0;
+        if (press.key == GLFW_KEY_F1)
+            view_.showsKeys = !view_.showsKeys;
+        else if (isControl && press.key == GLFW_KEY_Q)
+            window_.close();
+        else if (isControl && press.key == GLFW_KEY_S)
+            save();
+        else if (ImGui::GetIO().WantCaptureKeyboard || isControl)
+            continue;
+        else if (press.key == GLFW_KEY_TAB)
+            view_.showsPanel = !view_.showsPanel;
+        else if (press.key == GLFW_KEY_HOME)
+            view_.rig = CameraRig(view_.home, view_.scene->bounds);
+        else if (press.key == GLFW_KEY_B)
+            view_.isSplit = !view_.isSplit;
+        else if (press.key == GLFW_KEY_ESCAPE)
+            inspection_.reset();
+    }
+}
+
+void Viewer::takeDrops() {
+    for (const std::string& path : window_.takeDrops()) {
+        if (isEnvironment(path)) {
+            view_.settings.environmentFile = path;
+            view_.settings.environment.reset();
+            reload();
+        } else {
+            loader_.order({path, {}, view_.settings});
+        }
+    }
+}
+
+void Viewer::reload() {
+    loader_.order({view_.source, view_.import, view_.settings});
+}
+
+void Viewer::save() {
+    const std::string name = freeName(view_.source);
+    render_.save(name + ".exr", name + ".png");
+}
+
+void Viewer::move() {
+    const ControlAnswer answer = moveCamera(view_.rig, points());
+    view_.isFlying = answer.isFlying;
+    if (answer.inspect)
+        inspect(*answer.inspect, Purpose::look);
+    if (answer.focus)
+        inspect(*answer.focus, Purpose::focus);
+    if (answer.centre)
+        inspect(*answer.centre, Purpose::centre);
+}
+
+void Viewer::inspect(const glm::vec2& at, Purpose purpose) {
+    const glm::vec2 pixel = at * window_.pixelsPerPoint();
+    const glm::vec2 last = glm::vec2(window_.pixels()) - 1.0f;
+    purpose_ = purpose;
+    inspection_.reset();
+    render_.inspect(glm::uvec2(glm::clamp(pixel, glm::vec2(0.0f), last)), 0);
+}
+
+void Viewer::draw() {
+    if (inspection_) {
+        drawPath(*inspection_, view_, points());
+        uint32_t sample = 0;
+        if (drawInspector(*inspection_, *view_.scene, sample))
+            render_.inspect(inspection_->pixel, sample);
+    }
+    if (view_.isSplit)
+        drawSplit(view_, points());
+    if (view_.showsKeys)
+        drawKeys(view_.showsKeys);
+    drawMessages(messages_, points());
+    if (!view_.showsPanel)
+        return;
+    const PanelAnswer answer = drawPanel(view_, {statistics_[0], statistics_[1]});
+    if (answer.wantsSave)
+        save();
+    if (answer.wantsScene)
+        reload();
+}
+
+void Viewer::send() {
+    const glm::uvec2 pixels = window_.pixels();
+    if (pixels.x == 0 || pixels.y == 0)
+        return; // minimised: the image is kept
+    view_.settings.width = pixels.x;
+    view_.settings.height = pixels.y;
+    if (view_.rig.camera() != view_.home)
+        view_.settings.cameraOptions = cameraOptions(view_.rig); // for the record of saved images
+    if (!view_.isSplit)
+        view_.other = view_.settings.estimator;
+    LiveRequest request{view_.scene, view_.rig.camera(), view_.settings, std::nullopt,
+                        shaders_,    view_.tone,         false};
+    if (view_.isSplit)
+        request.other = view_.other;
+    if (sent_ && sent_->camera != request.camera && sent_->scene == request.scene)
+        lastMove_ = Clock::now();
+    request.isMoving = Clock::now() - lastMove_ < kStillAfter;
+    if (sent_ && *sent_ == request)
+        return;
+    if (inspection_ && (!sent_ || restartsImage(*sent_, request) != Restart::nothing))
+        inspection_.reset(); // it was of another image
+    if (watcher_)
+        watcher_->use(request.settings.kernels);
+    sent_ = request;
+    isReady_ = false;
+    render_.show(request);
+}
+
+void Viewer::updateTitle() {
+    const uint32_t samples = statistics_[0] ? statistics_[0]->samples : 0;
+    const char* state = loader_.isBusy() ? ", loading"
+                        : !isReady_      ? ", preparing"
+                        : isFinished_    ? ", done"
+                                         : "";
+    std::string title = fmt::format("Lavalight: {}, {} samples{}",
+                                    std::filesystem::path(view_.source).filename().string(), samples, state);
+    if (title != title_)
+        window_.setTitle(title);
+    title_ = std::move(title);
+}
+
+} // namespace lavalight

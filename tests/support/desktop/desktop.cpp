@@ -1,0 +1,164 @@
+#include "support/desktop/desktop.h"
+
+#include <array>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <sstream>
+#include <stdexcept>
+#include <thread>
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <X11/Xlib.h>
+
+#include "support/desktop/drag_source.h"
+
+namespace lavalight::test {
+namespace {
+
+constexpr std::chrono::milliseconds kTurn(20);
+constexpr std::chrono::seconds kPatience(60);
+
+// With /dev/null for its output; `passed`: a descriptor that it gets as number 3.
+pid_t spawn(std::vector<std::string> words, int passed = -1) {
+    std::vector<char*> argv;
+    for (std::string& word : words)
+        argv.push_back(word.data());
+    argv.push_back(nullptr);
+    posix_spawn_file_actions_t actions;
+    ::posix_spawn_file_actions_init(&actions);
+    for (const int stream : {STDOUT_FILENO, STDERR_FILENO})
+        ::posix_spawn_file_actions_addopen(&actions, stream, "/dev/null", O_WRONLY, 0);
+    if (passed >= 0)
+        ::posix_spawn_file_actions_adddup2(&actions, passed, 3);
+    pid_t process = 0;
+    const int failure = ::posix_spawnp(&process, argv.front(), &actions, nullptr, argv.data(), ::environ);
+    ::posix_spawn_file_actions_destroy(&actions);
+    if (failure != 0)
+        throw std::runtime_error("cannot run " + words.front());
+    return process;
+}
+
+// The server takes a free number and tells it.
+pid_t startServer(std::string& display) {
+    std::array<int, 2> ends{};
+    if (::pipe2(ends.data(), O_CLOEXEC) != 0)
+        throw std::runtime_error("no pipe for Xvfb");
+    const pid_t server =
+        spawn({"Xvfb", "-displayfd", "3", "-screen", "0", "1280x800x24", "-nolisten", "tcp"}, ends[1]);
+    ::close(ends[1]);
+    std::array<char, 16> text{};
+    const ssize_t length = ::read(ends[0], text.data(), text.size() - 1);
+    ::close(ends[0]);
+    if (length <= 0)
+        throw std::runtime_error("Xvfb did not start");
+    display = ":" + std::to_string(std::stoi(text.data()));
+    return server;
+}
+
+void stop(pid_t process) {
+    ::kill(process, SIGTERM);
+    ::waitpid(process, nullptr, 0);
+}
+
+// Whether a window manager has said, as all do, which window it checks in with.
+bool isManaged() {
+    Display* const display = ::XOpenDisplay(nullptr);
+    if (display == nullptr)
+        return false;
+    const Atom property = ::XInternAtom(display, "_NET_SUPPORTING_WM_CHECK", False);
+    Atom type = None;
+    int format = 0;
+    unsigned long count = 0;
+    unsigned long left = 0;
+    unsigned char* value = nullptr;
+    ::XGetWindowProperty(display, ::XDefaultRootWindow(display), property, 0, 1, False, AnyPropertyType,
+                         &type, &format, &count, &left, &value);
+    if (value != nullptr)
+        ::XFree(value);
+    ::XCloseDisplay(display);
+    return count > 0;
+}
+
+Screenshot parsePixmap(const std::string& bytes) {
+    std::istringstream in(bytes);
+    std::string magic;
+    int most = 0;
+    Screenshot shot;
+    in >> magic >> shot.width >> shot.height >> most;
+    in.get();
+    if (magic != "P6" || most != 255)
+        throw std::runtime_error("no picture of 8 bits a channel: " + bytes.substr(0, 100));
+    shot.pixels.resize(size_t{shot.width} * shot.height);
+    in.read(reinterpret_cast<char*>(shot.pixels.data()),
+            static_cast<std::streamsize>(shot.pixels.size() * 3));
+    return shot;
+}
+
+std::string outputOf(const std::string& command) {
+    FILE* const pipe = ::popen(command.c_str(), "r");
+    if (pipe == nullptr)
+        throw std::runtime_error("cannot run " + command);
+    std::string out;
+    std::array<char, 65536> part{};
+    while (const size_t count = std::fread(part.data(), 1, part.size(), pipe))
+        out.append(part.data(), count);
+    ::pclose(pipe);
+    return out;
+}
+
+} // namespace
+
+Desktop::Desktop() {
+    std::string display;
+    server_ = startServer(display);
+    display_ = std::make_unique<EnvironmentVariable>("DISPLAY", display);
+    manager_ = spawn({"openbox", "--sm-disable"});
+    const auto deadline = std::chrono::steady_clock::now() + kPatience;
+    while (!isManaged() && std::chrono::steady_clock::now() < deadline)
+        std::this_thread::sleep_for(kTurn);
+}
+
+Desktop::~Desktop() {
+    stop(manager_);
+    stop(server_);
+}
+
+std::string Desktop::findWindow(const std::string& title) const {
+    const auto deadline = std::chrono::steady_clock::now() + kPatience;
+    while (std::chrono::steady_clock::now() < deadline) {
+        const std::string found =
+            outputOf("xdotool search --onlyvisible --name '^" + title + "' 2>/dev/null");
+        if (!found.empty())
+            return found.substr(0, found.find('\n'));
+        std::this_thread::sleep_for(kTurn);
+    }
+    throw std::runtime_error("no window is called " + title);
+}
+
+std::string Desktop::titleOf(const std::string& window) const {
+    return outputOf("xdotool getwindowname " + window + " 2>/dev/null");
+}
+
+Screenshot Desktop::shoot(const std::string& window) const {
+    return parsePixmap(outputOf("import -silent -depth 8 -window " + window + " ppm:-"));
+}
+
+void Desktop::input(const std::string& words) const {
+    if (std::system(("xdotool " + words).c_str()) != 0)
+        throw std::runtime_error("xdotool cannot do this: " + words);
+}
+
+void Desktop::drop(const std::string& path, const std::string& window) const {
+    dragAndDrop(path, std::stoul(window));
+}
+
+Screenshot readPicture(const std::string& file) {
+    return parsePixmap(outputOf("convert '" + file + "' -depth 8 ppm:-"));
+}
+
+} // namespace lavalight::test

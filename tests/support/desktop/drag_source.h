@@ -1,0 +1,12 @@
+// Drops a file on another program's window.
+#pragma once
+
+#include <string>
+
+namespace lavalight::test {
+
+// By the protocol XDND, version 5 (freedesktop.org), with the file's path as a URI. `window`: X's number.
+// Throws std::runtime_error where the window does not take it within ten seconds.
+void dragAndDrop(const std::string& path, unsigned long window);
+
+} // namespace lavalight::test

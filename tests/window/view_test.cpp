@@ -1,0 +1,224 @@
+// The window, on a desktop in memory: what it shows is what render writes, and it does what its user asks.
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include "base/file.h"
+#include "image/exr.h"
+#include "support/desktop/desktop.h"
+#include "support/run_program.h"
+#include "support/running_program.h"
+#include "support/temporary_folder.h"
+
+namespace lavalight::test {
+namespace {
+
+constexpr std::chrono::seconds kPatience(60);
+
+// A small image, soon done, whose samples are counted.
+const std::vector<std::string> kImage{"--size", "240x180", "--spp", "8"};
+constexpr const char* kDone = "8 samples, done";
+
+class View : public testing::Test {
+  protected:
+    [[nodiscard]] static std::vector<std::string> with(std::vector<std::string> words,
+                                                       const std::vector<std::string>& more) {
+        words.insert(words.end(), more.begin(), more.end());
+        return words;
+    }
+    // Opens the window, validated, and hides its panel.
+    void open(const std::vector<std::string>& words) {
+        program_ = std::make_unique<RunningProgram>(with({"view", "--validate"}, with(kImage, words)),
+                                                    folder_.path());
+        window_ = desktop_.findWindow("Lavalight");
+        waitFor(kDone);
+        key("Tab");
+    }
+    void waitFor(const std::string& title) {
+        const auto deadline = std::chrono::steady_clock::now() + kPatience;
+        while (desktop_.titleOf(window_).find(title) == std::string::npos) {
+            ASSERT_LT(std::chrono::steady_clock::now(), deadline)
+                << "\"" << desktop_.titleOf(window_) << "\" never says \"" << title << "\"";
+            std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        }
+    }
+    void key(const std::string& name) const {
+        desktop_.input("windowfocus --sync " + window_ + " key --clearmodifiers " + name);
+    }
+    // Waits for the window to show those pixels; says how they differ if it does not.
+    void expectShown(const Screenshot& wanted) const {
+        const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+        Screenshot shown = desktop_.shoot(window_);
+        while (shown != wanted && std::chrono::steady_clock::now() < deadline) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(50));
+            shown = desktop_.shoot(window_);
+        }
+        ASSERT_EQ(shown.width, wanted.width);
+        ASSERT_EQ(shown.height, wanted.height);
+        size_t different = 0;
+        for (size_t i = 0; i < shown.pixels.size(); ++i)
+            different += shown.pixels[i] != wanted.pixels[i];
+        EXPECT_EQ(different, 0u) << "pixels of " << shown.pixels.size();
+    }
+    // What `lavalight render` makes of the same scene and settings.
+    [[nodiscard]] Screenshot rendered(const std::vector<std::string>& words) const {
+        const ProgramResult result =
+            runLavalight(with({"render", "--png", "wanted.png"}, with(kImage, words)), folder_.path());
+        EXPECT_EQ(result.exitCode, 0) << result.err;
+        return readPicture((folder_ / "wanted.png").string());
+    }
+    // Closes it by the keyboard, and expects that nothing was wrong.
+    void quit() {
+        key("ctrl+q");
+        const ProgramResult result = program_->wait();
+        EXPECT_EQ(result.exitCode, 0) << result.err;
+    }
+
+    const TemporaryFolder folder_;
+    const Desktop desktop_;
+    std::unique_ptr<RunningProgram> program_;
+    std::string window_;
+};
+
+TEST_F(View, ShowsWhatRenderWrites) {
+    const std::vector<std::string> words{"cornell-box", "--tonemap", "agx", "--exposure", "1"};
+    open(words);
+    expectShown(rendered(words));
+    quit();
+}
+
+TEST_F(View, IsMovedByMouseAndKeysAndComesHome) {
+    open({"cornell-box"});
+    const Screenshot home = rendered({"cornell-box"});
+    expectShown(home);
+    desktop_.input("mousemove --window " + window_ +
+                   " 120 90 mousedown 1 mousemove_relative 12 0 "
+                   "mousemove_relative 12 4 mouseup 1");
+    waitFor(kDone);
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    waitFor(kDone);
+    const Screenshot orbited = desktop_.shoot(window_);
+    EXPECT_NE(orbited, home);
+    desktop_.input("windowfocus --sync " + window_ + " keydown w sleep 0.3 keyup w");
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    waitFor(kDone);
+    EXPECT_NE(desktop_.shoot(window_), orbited);
+    key("Home");
+    expectShown(home);
+    quit();
+}
+
+TEST_F(View, FollowsItsSize) {
+    open({"cornell-box"});
+    desktop_.input("windowsize --sync " + window_ + " 320 200");
+    expectShown(rendered({"cornell-box", "--size", "320x200"}));
+    quit();
+}
+
+TEST_F(View, SettingsOfThePanelRestartTheImage) {
+    open({"cornell-box", "--size", "400x600"});
+    expectShown(rendered({"cornell-box", "--size", "400x600"}));
+    key("Tab");
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    desktop_.input("mousemove --window " + window_ + " 32 331 sleep 0.2 click 1"); // next-event estimation
+    key("Tab");
+    expectShown(rendered({"cornell-box", "--size", "400x600", "--nee", "off"}));
+    quit();
+}
+
+TEST_F(View, ComparesTwoSettingsSideBySide) {
+    open({"cornell-box"});
+    key("b");
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    waitFor(kDone);
+    const Screenshot one = rendered({"cornell-box"});
+    const Screenshot two = desktop_.shoot(window_); // the same settings: the same pixels but for the line
+    size_t different = 0;
+    for (size_t i = 0; i < one.pixels.size(); ++i)
+        different += one.pixels[i] != two.pixels[i];
+    EXPECT_GE(different, size_t{one.height});
+    EXPECT_LE(different, size_t{3} * one.height);
+    key("b");
+    expectShown(one);
+    quit();
+}
+
+TEST_F(View, OpensWhatIsDroppedAndKeepsTheSceneWhereThatIsBroken) {
+    open({"cornell-box"});
+    std::ofstream(folder_ / "broken.gltf") << "{";
+    desktop_.drop((folder_ / "broken.gltf").string(), window_);
+    ASSERT_TRUE(program_->waitForText("broken.gltf"));
+    const std::string scene = LAVALIGHT_SOURCE_DIR "/assets/furnace.gltf";
+    desktop_.drop(scene, window_);
+    waitFor("furnace.gltf");
+    waitFor(kDone);
+    key("Tab"); // the message that lies over the image is closed with the mouse alone
+    key("Tab");
+    EXPECT_TRUE(program_->isRunning());
+    quit();
+}
+
+TEST_F(View, SavesTheImageAsRenderWritesIt) {
+    open({"cornell-box"});
+    key("ctrl+s");
+    ASSERT_TRUE(program_->waitForText("saved cornell-box-1.exr, cornell-box-1.png"));
+    const ProgramResult result =
+        runLavalight(with({"render", "cornell-box", "-o", "wanted.exr"}, kImage), folder_.path());
+    ASSERT_EQ(result.exitCode, 0) << result.err;
+    const ExrFile saved = readExr(folder_ / "cornell-box-1.exr");
+    const ExrFile wanted = readExr(folder_ / "wanted.exr");
+    EXPECT_EQ(saved.radiance.pixels, wanted.radiance.pixels);
+    EXPECT_EQ(saved.sampleCounts, wanted.sampleCounts);
+    EXPECT_EQ(readPicture((folder_ / "cornell-box-1.png").string()), rendered({"cornell-box"}));
+    quit();
+}
+
+TEST_F(View, CompilesShadersAtEverySaveAndGoesOnWhereTheyAreBroken) {
+    const std::string file = (folder_ / "mine/lib/roulette.glsl").string();
+    ASSERT_EQ(runLavalight({"new-experiment", "mine", "lib/roulette.glsl"}, folder_.path()).exitCode, 0);
+    const std::string ours = readFile(file);
+    const auto save = [&](const std::string& cap) {
+        std::string text = ours;
+        const std::string line = "kMaxSurvival = 0.95";
+        text.replace(text.find(line), line.size(), "kMaxSurvival = " + cap);
+        std::ofstream(file) << text;
+    };
+    const std::vector<std::string> words{"cornell-box", "--shaders", "mine"};
+    open(words);
+    expectShown(rendered({"cornell-box"}));
+    save(";");
+    ASSERT_TRUE(program_->waitForText("mine/lib/roulette.glsl:6"));
+    save("0.2");
+    ASSERT_TRUE(program_->waitForText("changed: path"));
+    waitFor(kDone);
+    save("0.95");
+    ASSERT_TRUE(program_->waitForText("changed: path", 2));
+    quit();
+}
+
+TEST_F(View, IsClosedByItsFrame) {
+    open({"cornell-box"});
+    desktop_.input("windowfocus --sync " + window_ + " key --clearmodifiers alt+F4");
+    EXPECT_EQ(program_->wait().exitCode, 0);
+}
+
+TEST(ViewRefusals, WithoutADesktopSaysSoInALine) {
+    const EnvironmentVariable nowhere("DISPLAY", ":4711");
+    const TemporaryFolder folder;
+    const ProgramResult result = runLavalight({"view", "cornell-box"}, folder.path());
+    EXPECT_EQ(result.exitCode, 1);
+    EXPECT_NE(result.err.find("cannot open a window"), std::string::npos) << result.err;
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+}
+
+TEST(ViewRefusals, RendersUntilItIsClosed) {
+    const TemporaryFolder folder;
+    EXPECT_EQ(runLavalight({"view", "cornell-box", "--time", "3"}, folder.path()).exitCode, 2);
+}
+
+} // namespace
+} // namespace lavalight::test
