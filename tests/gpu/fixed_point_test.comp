@@ -1,5 +1,5 @@
 #version 460
-// Adds runs of floats to exact sums of three and of four words.
+// Adds runs of floats to exact sums of three and of four words, and reads the sum of three.
 #include "lib/fixed_point.glsl"
 #include "shared/film.h"
 
@@ -10,6 +10,7 @@ struct Answer {
     uvec3 three;
     uint leftThree; // how many additions left the range of three words
     uint leftFour;
+    float value; // of the sum of three words
 };
 
 layout(local_size_x = 64) in;
@@ -20,11 +21,12 @@ void main() {
     const uint i = gl_GlobalInvocationID.x;
     if (i >= answers.length())
         return;
-    Answer answer = Answer(uvec4(0u), uvec3(0u), 0u, 0u);
+    Answer answer = Answer(uvec4(0u), uvec3(0u), 0u, 0u, 0.0);
     for (uint k = 0u; k < kRun; ++k) {
         const float x = values[i * kRun + k];
         answer.leftThree += addExactly(answer.three, x, kSumLowestExponent) ? 0u : 1u;
         answer.leftFour += addExactly(answer.four, x, kSquareLowestExponent) ? 0u : 1u;
     }
+    answer.value = fromFixed(answer.three, kSumLowestExponent);
     answers[i] = answer;
 }

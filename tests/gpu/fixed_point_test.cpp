@@ -26,6 +26,7 @@ struct alignas(16) Answer { // as in the kernel
     std::array<uint32_t, 3> three;
     uint32_t leftThree;
     uint32_t leftFour;
+    float value; // of the sum of three words
 };
 
 // A sum of `words` 32-bit words, its lowest bit worth 2^lowestExponent.
@@ -55,6 +56,7 @@ class ExactSum {
     }
     [[nodiscard]] uint32_t word(size_t i) const { return static_cast<uint32_t>(value_ >> (32 * i)); }
     [[nodiscard]] uint32_t left() const { return left_; }
+    [[nodiscard]] double value() const { return std::ldexp(static_cast<double>(value_), lowestExponent_); }
 
   private:
     Wide value_ = 0;
@@ -81,6 +83,7 @@ class FixedPointTest : public DeviceTest {
                 ASSERT_EQ(answers[i].three[word], three.word(word)) << "sum " << i << " word " << word;
             for (size_t word = 0; word < 4; ++word)
                 ASSERT_EQ(answers[i].four[word], four.word(word)) << "sum " << i << " word " << word;
+            ASSERT_NEAR(answers[i].value, three.value(), 0x1p-22 * three.value()) << "sum " << i;
             ASSERT_EQ(answers[i].leftThree, three.left());
             ASSERT_EQ(answers[i].leftFour, four.left());
         }

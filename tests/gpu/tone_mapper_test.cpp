@@ -91,14 +91,5 @@ TEST_F(ToneMapperTest, ExposuresWithoutMeasureEndInBlackAndWhite) {
     EXPECT_NE(std::count(bright.begin(), bright.end(), kWhite), 0);
 }
 
-TEST_F(ToneMapperTest, DeviceMemoryIsKeptFromCallToCall) {
-    const Film film(device(), 64, 48, 10);
-    ASSERT_EQ(mapper_.map(film, {}).size(), 64u * 48u);
-    const uint64_t bytes = device().allocatedBytes();
-    for (int i = 0; i < 3; ++i)
-        ASSERT_EQ(mapper_.map(film, {}).size(), 64u * 48u);
-    EXPECT_EQ(device().allocatedBytes(), bytes);
-}
-
 } // namespace
 } // namespace lavalight::test
