@@ -1,6 +1,7 @@
 #include "render/ledger.h"
 
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -22,6 +23,20 @@ std::vector<LedgerEntry> makeLedger(const Scene& scene, const RenderSettings& se
     if (stop == StopReason::targetError)
         ledger.push_back(
             {"stopped-on-estimate", fmt::format("the error estimate reached {}", settings.targetError)});
+    if (scene.environmentMap && scene.environmentMap->badTexels > 0)
+        ledger.push_back(
+            {"environment-values",
+             fmt::format("{} texels of the environment map were negative or not finite, and are 0",
+                         scene.environmentMap->badTexels)});
+    if (!scene.ignoredExtensions.empty())
+        ledger.push_back({"ignored-extensions", fmt::format("{}", fmt::join(scene.ignoredExtensions, ", "))});
+    for (LedgerEntry& entry : tallyEntries(tallies))
+        ledger.push_back(std::move(entry));
+    return ledger;
+}
+
+std::vector<LedgerEntry> tallyEntries(const FilmTallies& tallies) {
+    std::vector<LedgerEntry> ledger;
     if (tallies.cutPaths > 0)
         ledger.push_back({"cut-paths", fmt::format("{} paths ended by --max-bounces, mean throughput {:.4g}",
                                                    tallies.cutPaths, tallies.cutThroughput)});
@@ -31,13 +46,6 @@ std::vector<LedgerEntry> makeLedger(const Scene& scene, const RenderSettings& se
     if (tallies.saturatedSums > 0)
         ledger.push_back(
             {"saturated-sums", fmt::format("{} sums left the film's range", tallies.saturatedSums)});
-    if (scene.environmentMap && scene.environmentMap->badTexels > 0)
-        ledger.push_back(
-            {"environment-values",
-             fmt::format("{} texels of the environment map were negative or not finite, and are 0",
-                         scene.environmentMap->badTexels)});
-    if (!scene.ignoredExtensions.empty())
-        ledger.push_back({"ignored-extensions", fmt::format("{}", fmt::join(scene.ignoredExtensions, ", "))});
     return ledger;
 }
 

@@ -20,6 +20,9 @@ struct LedgerEntry {
 [[nodiscard]] std::vector<LedgerEntry> makeLedger(const Scene& scene, const RenderSettings& settings,
                                                   const FilmTallies& tallies, StopReason stop);
 
+// What happened to samples: the end of the ledger.
+[[nodiscard]] std::vector<LedgerEntry> tallyEntries(const FilmTallies& tallies);
+
 // One line for the EXR header: "none", or entries joined by "; ".
 [[nodiscard]] std::string ledgerText(const std::vector<LedgerEntry>& ledger);
 
