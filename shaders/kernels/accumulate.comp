@@ -36,11 +36,19 @@ void storeSums(uint channel, uint pixel, ChannelSums sums) {
         film[wordAt(channel, 3u + word, pixel)] = sums.square[word];
 }
 
-// Adds a radiance; the number of sums that it takes out of range.
-uint addRadiance(inout ChannelSums sums, float radiance) {
+void addRadiance(inout ChannelSums sums, float radiance) {
     const float value = max(radiance, 0.0);
-    return (addExactly(sums.sum, value, kSumLowestExponent) ? 0u : 1u) +
-           (addExactly(sums.square, value * value, kSquareLowestExponent) ? 0u : 1u);
+    addExactly(sums.sum, value, kSumLowestExponent);
+    addExactly(sums.square, value * value, kSquareLowestExponent);
+}
+
+// Sums that have left their range. They are counted when they do, not once a sample: so the count follows from the film.
+uint saturatedSums(ChannelSums sums) {
+    return (sums.sum == uvec3(0xffffffffu) ? 1u : 0u) + (sums.square == uvec4(0xffffffffu) ? 1u : 0u);
+}
+
+uint saturatedSums(ChannelSums red, ChannelSums green, ChannelSums blue) {
+    return saturatedSums(red) + saturatedSums(green) + saturatedSums(blue);
 }
 
 void main() {
@@ -52,15 +60,19 @@ void main() {
     ChannelSums red = loadSums(0u, pixel);
     ChannelSums green = loadSums(1u, pixel);
     ChannelSums blue = loadSums(2u, pixel);
+    const uint saturatedBefore = saturatedSums(red, green, blue);
     uint dropped = 0u;
-    uint saturated = 0u;
     for (uint slot = firstSlot; slot < firstSlot + range.sampleCount; ++slot) {
         const vec3 radiance = paths[slot].radiance;
-        if (isFinite(radiance))
-            saturated += addRadiance(red, radiance.x) + addRadiance(green, radiance.y) + addRadiance(blue, radiance.z);
-        else
+        if (isFinite(radiance)) {
+            addRadiance(red, radiance.x);
+            addRadiance(green, radiance.y);
+            addRadiance(blue, radiance.z);
+        } else {
             ++dropped;
+        }
     }
+    const uint saturated = saturatedSums(red, green, blue) - saturatedBefore;
     storeSums(0u, pixel, red);
     storeSums(1u, pixel, green);
     storeSums(2u, pixel, blue);

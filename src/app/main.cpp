@@ -19,6 +19,7 @@
 #include "app/devices_command.h"
 #include "app/info_command.h"
 #include "app/lab_command.h"
+#include "app/merge_command.h"
 #include "app/new_experiment_command.h"
 #include "app/presets_command.h"
 #include "app/render_command.h"
@@ -88,6 +89,7 @@ int parseAndRun(int argc, char** argv) {
         std::make_unique<InfoCommand>(app),
         std::make_unique<DevicesCommand>(app),
         std::make_unique<CompareCommand>(app),
+        std::make_unique<MergeCommand>(app),
         std::make_unique<BenchCommand>(app),
     });
     try {

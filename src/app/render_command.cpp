@@ -32,29 +32,10 @@ namespace {
 
 constexpr int kInterrupted = 130;
 
-// Splits the time of a run into named stages.
-class Stopwatch {
-  public:
-    // Seconds since the last call, kept under that name.
-    double lap(const std::string& stage) {
-        const auto now = std::chrono::steady_clock::now();
-        const double seconds = std::chrono::duration<double>(now - last_).count();
-        last_ = now;
-        stages_.emplace_back(stage, seconds);
-        return seconds;
-    }
-    [[nodiscard]] const StageTimes& stages() const { return stages_; }
-
-  private:
-    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-    StageTimes stages_;
-};
-
 void warnOfOverlaps(RenderReport& report, const Scene& scene) {
     if (report.tallies.overlaps == 0)
         return;
-    report.warnings.push_back(
-        fmt::format("{}; let solids touch, or leave a gap between them", overlapText(scene, report.tallies)));
+    report.warnings.push_back(overlapText(scene, report.tallies));
     spdlog::warn("{}", report.warnings.back());
 }
 
@@ -73,7 +54,7 @@ void printSummary(const RenderReport& report) {
 
 RenderCommand::RenderCommand(CLI::App& app)
     : Command(app, "render", "Render a scene to an image"), options_(parser()), sceneOptions_(parser()),
-      sequence_(parser()), shaders_(parser()), tone_(parser()) {
+      sequence_(parser()), shaders_(parser()), tone_(parser()), checkpoints_(parser()) {
     shaders_.declareWatch(parser());
     parser()
         .add_option("scene", scene_,
@@ -94,6 +75,7 @@ RenderCommand::RenderCommand(CLI::App& app)
 struct RenderCommand::Session {
     RenderSettings settings;
     ToneSettings tone;
+    Checkpoint checkpoint{{}, {}};
     KernelSource source = embeddedKernel;
     std::optional<gpu::Device> device{};
     std::optional<EstimatorKernels> kernels{};
@@ -130,17 +112,8 @@ struct RenderCommand::Session {
     }
 };
 
-struct RenderCommand::Take {
-    Stopwatch watch{};
-    Scene scene;
-    std::unique_ptr<Renderer> renderer{};
-    RenderReport report{};
-    std::optional<double>
-        toFirstSamples{}; // seconds from the start of the process to the end of the first wave
-};
-
 void RenderCommand::requireOutputs(const Outputs& outputs) const {
-    const std::array<std::string, 3> files{outputs.exr, outputs.png, outputs.report};
+    const std::array<std::string, 4> files{outputs.exr, outputs.png, outputs.report, outputs.checkpoint};
     for (auto file = files.begin(); file != files.end(); ++file) {
         if (file->empty())
             continue;
@@ -158,6 +131,7 @@ int RenderCommand::run() {
     if (tone_.isCurveGiven() && outputs_.png.empty())
         throw UsageError("--tonemap: only a PNG is tone mapped; give --png OUT.png, or leave it out");
     Session session{options_.settings(), tone_.settings()};
+    outputs_.checkpoint = checkpoints_.file(session.settings);
     if (const auto overlay = shaders_.overlay())
         session.use(overlay);
     if (sequence_.isAsked() && shaders_.isWatching())
@@ -165,6 +139,7 @@ int RenderCommand::run() {
     if (sequence_.isAsked())
         return runSequence(session);
     requireOutputs(outputs_);
+    session.checkpoint = Checkpoint(outputs_.checkpoint, checkpoints_.interval());
     return shaders_.isWatching() ? runWatching(session)
                                  : renderMoment(outputs_, sceneOptions_.importOptions(), session);
 }
@@ -172,8 +147,10 @@ int RenderCommand::run() {
 int RenderCommand::runSequence(Session& session) const {
     const FrameRange range = sequence_.range();
     for (uint32_t frame = range.first; frame < range.end; ++frame) {
-        const Outputs files{numberedFile(outputs_.exr, frame), numberedFile(outputs_.png, frame),
-                            numberedFile(outputs_.report, frame)};
+        const Outputs files{numberedFile(outputs_.exr, frame),
+                            numberedFile(outputs_.png, frame),
+                            numberedFile(outputs_.report, frame),
+                            {}};
         requireOutputs(files);
         const ImportOptions moment = sceneOptions_.importOptionsAt(sequence_.secondsOf(frame));
         if (const int code = renderMoment(files, moment, session); code != 0)
@@ -214,7 +191,7 @@ int RenderCommand::runWatching(Session& session) const {
     return kInterrupted;
 }
 
-RenderCommand::Take RenderCommand::prepare(const ImportOptions& moment, Session& session) const {
+Take RenderCommand::prepare(const ImportOptions& moment, Session& session) const {
     Take take;
     take.scene = loadLit(scene_, moment, session.settings);
     take.report.import = moment;
@@ -233,24 +210,23 @@ RenderCommand::Take RenderCommand::prepare(const ImportOptions& moment, Session&
 
 void RenderCommand::takeSamples(Take& take, const std::function<bool()>& mayGoOn) const {
     ProgressBar progress(!quiet_);
-    take.report.stop = take.renderer->render([&](double fraction) {
-        if (!take.toFirstSamples)
-            take.toFirstSamples = secondsSinceProcessStart();
+    take.takeSamples([&](double fraction) {
         progress.show(fraction);
         return mayGoOn();
     });
-    take.report.renderSeconds = take.watch.lap("render");
 }
 
 void RenderCommand::write(Take& take, const Outputs& files, Session& session) const {
     session.device->requireNoValidationMessages();
     RenderReport& report = take.report;
-    fillInputs(report, take.scene, take.renderer->settings());
-    report.settings.changedShaders = session.settings.changedShaders;
+    take.describeInputs(*session.device, session.settings.changedShaders);
     const Rendering rendering = take.renderer->rendering();
     fillResults(report, *take.renderer, *session.device, rendering, take.scene);
     warnOfOverlaps(report, take.scene);
-    if (!files.exr.empty())
+    report.rays = report.rays + take.before.rays;
+    if (!files.exr.empty() && options_.keepsFilm())
+        writeFilmFile(files.exr, take.film());
+    else if (!files.exr.empty())
         writeExr(files.exr, rendering, exrMetadata(report));
     if (!files.png.empty()) {
         report.tone = session.tone;
@@ -272,8 +248,19 @@ void RenderCommand::write(Take& take, const Outputs& files, Session& session) co
 int RenderCommand::renderMoment(const Outputs& files, const ImportOptions& moment, Session& session) const {
     Take take = prepare(moment, session);
     const InterruptGuard guard; // until all files are written: Ctrl-C loses no image
-    takeSamples(take, [&] { return !guard.interrupted(); });
+    Checkpoint& checkpoint = session.checkpoint;
+    take.describeInputs(*session.device, session.settings.changedShaders);
+    if (checkpoints_.isResuming())
+        take.resumeFrom(checkpoint);
+    takeSamples(take, [&] {
+        if (checkpoint.isDue())
+            take.keep(checkpoint);
+        return !guard.interrupted();
+    });
+    if (checkpoint.isWanted())
+        checkpoint.write([&] { return take.film(); });
     write(take, files, session);
+    checkpoint.requireWritten();
     session.kernels = take.renderer->releaseKernels();
     return take.report.stop == StopReason::interrupted ? kInterrupted : 0;
 }

@@ -4,11 +4,13 @@
 #include <functional>
 #include <string>
 
+#include "app/checkpoint_options.h"
 #include "app/command.h"
 #include "app/frame_sequence.h"
 #include "app/render_options.h"
 #include "app/scene_options.h"
 #include "app/shader_options.h"
+#include "app/take.h"
 #include "app/tone_options.h"
 #include "render/report.h"
 
@@ -26,9 +28,9 @@ class RenderCommand : public Command {
         std::string exr;
         std::string png;
         std::string report;
+        std::string checkpoint;
     };
     struct Session; // what the frames of a sequence share
-    struct Take;    // one image in the making
 
     void requireOutputs(const Outputs& files) const;
     [[nodiscard]] int runSequence(Session& session) const;
@@ -43,6 +45,7 @@ class RenderCommand : public Command {
     FrameSequence sequence_;
     ShaderOptions shaders_;
     ToneOptions tone_;
+    CheckpointOptions checkpoints_;
     std::string scene_ = "cornell-box";
     Outputs outputs_;
     bool quiet_ = false;

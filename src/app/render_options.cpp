@@ -12,6 +12,7 @@
 #include "app/option_values.h"
 #include "base/error.h"
 #include "render/presets.h"
+#include "render/sample_ranges.h"
 #include "render/setting_names.h"
 
 namespace lavalight {
@@ -65,6 +66,11 @@ void RenderOptions::declareStop(CLI::App& parser) {
     parser
         .add_option("--spp", settings_.samples, "Samples per pixel; no limit with --time or --target-error")
         ->type_name("N");
+    parser
+        .add_option("--samples", samples_,
+                    "Instead of --spp: samples A to before B of each pixel; the EXR can be joined with those "
+                    "of other ranges (see lavalight merge)")
+        ->type_name("A:B");
     parser.add_option("--time", settings_.seconds, "Stop after this time")->type_name("SECONDS");
     parser
         .add_option("--target-error", settings_.targetError,
@@ -162,6 +168,8 @@ RenderSettings RenderOptions::settings() const {
     take("--roulette-probability", &EstimatorSettings::rouletteProbability);
     take("--seed", &EstimatorSettings::seed);
     settings.estimator.clampIndirect = parseClamp(clampIndirect_);
+    if (!samples_.empty())
+        takeRange(settings);
     const bool stopsEarly = settings.seconds > 0.0 || settings.targetError > 0.0;
     if (stopsEarly && parser_->count("--spp") == 0)
         settings.samples = 0x7fffffff;
@@ -170,6 +178,20 @@ RenderSettings RenderOptions::settings() const {
     environment_.applyTo(settings);
     settings.cameraOptions = camera_.given();
     return settings;
+}
+
+void RenderOptions::takeRange(RenderSettings& settings) const {
+    const std::optional<SampleRanges> ranges = parseSampleRanges(samples_);
+    if (!ranges || ranges->size() != 1)
+        throw UsageError(fmt::format("--samples: \"{}\" is not A:B with A below B", samples_));
+    for (const char* option : {"--spp", "--time", "--target-error"})
+        if (parser_->count(option) > 0)
+            throw UsageError(
+                fmt::format("--samples and {}: samples A to before B are exactly those, whatever "
+                            "time or error they come to; give one of the two",
+                            option));
+    settings.firstSample = ranges->front().first;
+    settings.samples = countOf(*ranges);
 }
 
 gpu::DeviceConfig RenderOptions::device() const {

@@ -24,6 +24,8 @@ class RenderOptions {
     // Throws UsageError naming the option and what it takes.
     [[nodiscard]] RenderSettings settings() const;
     [[nodiscard]] gpu::DeviceConfig device() const;
+    // Whether the image is to hold its exact film.
+    [[nodiscard]] bool keepsFilm() const { return !samples_.empty(); }
     // Throws UsageError as CameraOptions::cameraOf does.
     [[nodiscard]] Camera cameraOf(const Scene& scene) const { return camera_.cameraOf(scene); }
 
@@ -33,9 +35,11 @@ class RenderOptions {
     void declareEstimator(CLI::App& parser);
     void declareRoulette(CLI::App& parser);
     void declareDevice(CLI::App& parser);
+    void takeRange(RenderSettings& settings) const;
 
     CLI::App* parser_; // asked which options were given
     std::string size_;
+    std::string samples_; // A:B
     CameraOptions camera_;
     EnvironmentOptions environment_;
     std::string preset_;

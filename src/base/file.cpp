@@ -5,7 +5,9 @@
 #include <cstring>
 #include <fstream>
 #include <system_error>
+#include <vector>
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -24,11 +26,13 @@ namespace fs = std::filesystem;
     throw Error(fmt::format("cannot write {}: {}", path.string(), reason));
 }
 
+constexpr std::string_view kUnfinished = ".part";
+
 // Unique in this process and among processes: several renders may write into one folder.
 fs::path temporaryName(const fs::path& path) {
     static std::atomic<unsigned> counter{0};
     fs::path name = path;
-    name += fmt::format(".{}-{}.part", ::getpid(), counter++);
+    name += fmt::format(".{}-{}{}", ::getpid(), counter++, kUnfinished);
     return name;
 }
 
@@ -48,6 +52,39 @@ class TemporaryFile {
   private:
     fs::path path_;
 };
+
+// A file descriptor, closed in the end.
+class Descriptor {
+  public:
+    Descriptor(const fs::path& path, int flags) : number_(::open(path.c_str(), flags | O_CLOEXEC)) {}
+    ~Descriptor() {
+        if (number_ >= 0)
+            ::close(number_);
+    }
+    Descriptor(const Descriptor&) = delete;
+    Descriptor& operator=(const Descriptor&) = delete;
+
+    [[nodiscard]] bool isOpen() const { return number_ >= 0; }
+    [[nodiscard]] bool sync() const { return ::fsync(number_) == 0; }
+
+  private:
+    int number_;
+};
+
+// Without it, a power cut soon after the renaming may leave an empty file under the final name.
+void syncContents(const fs::path& part, const fs::path& path) {
+    const Descriptor file(part, O_RDONLY);
+    if (!file.isOpen() || !file.sync())
+        throwUnwritable(path, std::strerror(errno));
+}
+
+// The renaming itself. Some file systems cannot; then it is as durable as they make it.
+void syncFolder(const fs::path& path) {
+    const fs::path folder = path.parent_path();
+    const Descriptor descriptor(folder.empty() ? "." : folder, O_RDONLY | O_DIRECTORY);
+    if (descriptor.isOpen())
+        (void)descriptor.sync();
+}
 
 void requireReplaceable(const fs::path& path) {
     if (!path.has_filename())
@@ -100,10 +137,12 @@ void writeFileAtomically(const fs::path& path, const std::function<void(const fs
     requireReplaceable(path);
     const TemporaryFile part(path);
     write(part.path());
+    syncContents(part.path(), path);
     std::error_code code;
     fs::rename(part.path(), path, code);
     if (code)
         throwUnwritable(path, code.message());
+    syncFolder(path);
 }
 
 void writeFileAtomically(const fs::path& path, std::string_view bytes) {
@@ -114,6 +153,21 @@ void writeFileAtomically(const fs::path& path, std::string_view bytes) {
         if (!out)
             throwUnwritable(path, std::strerror(errno));
     });
+}
+
+void removeUnfinished(const fs::path& path) {
+    const fs::path folder = path.parent_path();
+    const std::string prefix = path.filename().string() + ".";
+    std::vector<fs::path> unfinished;
+    std::error_code ignored;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder.empty() ? "." : folder, ignored)) {
+        const std::string name = entry.path().filename().string();
+        if (name.starts_with(prefix) && name.ends_with(kUnfinished) &&
+            name.size() > prefix.size() + kUnfinished.size())
+            unfinished.push_back(entry.path());
+    }
+    for (const fs::path& file : unfinished)
+        fs::remove(file, ignored);
 }
 
 void requireWritable(const fs::path& path) {

@@ -14,14 +14,18 @@ void requireRegularFile(const std::filesystem::path& path);
 // The bytes of a regular file. Throws Error for a missing file, a directory, a device or an unreadable file.
 [[nodiscard]] std::string readFile(const std::filesystem::path& path);
 
-// Calls `write` with the name of a new file in the same folder, then renames that file to `path`. If `write`
-// or the renaming throws, nothing is left behind and an existing `path` is untouched. Only regular files are
-// replaced: a rename over a device such as /dev/null would do lasting damage. Throws Error.
+// Calls `write` with the name of a new file in the same folder, brings that file to the disk (fsync), then
+// renames it to `path`. If `write` or the renaming throws, nothing is left behind and an existing `path` is
+// untouched. Only regular files are replaced: a rename over a device such as /dev/null would do lasting
+// damage. Throws Error.
 void writeFileAtomically(const std::filesystem::path& path,
                          const std::function<void(const std::filesystem::path&)>& write);
 
 // The same for bytes at hand.
 void writeFileAtomically(const std::filesystem::path& path, std::string_view bytes);
+
+// Removes what processes that were killed left behind where they wrote `path`. No other may be at it.
+void removeUnfinished(const std::filesystem::path& path);
 
 // Throws Error unless a file can be created at `path`: asked before a long render rather than after it.
 // Leaves nothing behind.

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <cerrno>
+#include <cstring>
 #include <exception>
+#include <fstream>
 #include <new>
 #include <string_view>
 #include <thread>
@@ -14,6 +17,7 @@
 #include <ImfInputFile.h>
 #include <ImfOutputFile.h>
 #include <ImfStandardAttributes.h>
+#include <ImfStdIO.h>
 #include <ImfStringAttribute.h>
 #include <ImfThreading.h>
 #include <fmt/format.h>
@@ -57,7 +61,8 @@ void addColor(Imf::Header& header, Imf::FrameBuffer& buffer, const std::array<co
     }
 }
 
-void writeChannels(const std::filesystem::path& part, const Rendering& rendering, const Metadata& metadata) {
+void writeChannels(const std::filesystem::path& part, const Rendering& rendering, const Metadata& metadata,
+                   std::span<const UintChannel> more) {
     const Image& image = rendering.radiance;
     const auto height = static_cast<int>(image.height);
     Imf::Header header(static_cast<int>(image.width), height);
@@ -68,12 +73,23 @@ void writeChannels(const std::filesystem::path& part, const Rendering& rendering
     Imf::FrameBuffer buffer;
     addColor(header, buffer, kColor, image);
     addColor(header, buffer, kVariance, rendering.variance);
-    header.channels().insert(kSamples, Imf::Channel(Imf::UINT));
-    buffer.insert(kSamples,
-                  outputSlice(Imf::UINT, rendering.sampleCounts.data(), sizeof(uint32_t), image.width));
-    Imf::OutputFile file(part.c_str(), header);
-    file.setFrameBuffer(buffer);
-    file.writePixels(height);
+    const auto addCounts = [&](const char* name, std::span<const uint32_t> values) {
+        header.channels().insert(name, Imf::Channel(Imf::UINT));
+        buffer.insert(name, outputSlice(Imf::UINT, values.data(), sizeof(uint32_t), image.width));
+    };
+    addCounts(kSamples, rendering.sampleCounts);
+    for (const UintChannel& channel : more)
+        addCounts(channel.name.c_str(), channel.values);
+    std::ofstream stream(part, std::ios::binary);
+    {
+        Imf::StdOFStream out(stream, part.c_str());
+        Imf::OutputFile file(out, header);
+        file.setFrameBuffer(buffer);
+        file.writePixels(height);
+    } // writes where the lines are, and swallows what goes wrong with that: the stream knows
+    stream.close();
+    if (!stream)
+        throw Error(std::strerror(errno));
 }
 
 // --- reading ---
@@ -162,10 +178,10 @@ class PixelReader {
         bind(kLuminance, Imf::FLOAT, image.pixels.data(), sizeof(glm::vec3));
     }
 
-    void bindCounts(std::vector<uint32_t>& counts) {
+    void bindCounts(std::vector<uint32_t>& counts, const char* name) {
         counts.reserve(size_t{width_} * height_);
-        counts_ = &counts;
-        bind(kSamples, Imf::UINT, counts.data(), sizeof(uint32_t));
+        counts_.push_back(&counts);
+        bind(name, Imf::UINT, counts.data(), sizeof(uint32_t));
     }
 
     void read() {
@@ -175,8 +191,8 @@ class PixelReader {
             const uint32_t end = std::min(row + kBand, height_);
             for (Image* image : images_)
                 image->pixels.resize(size_t{end} * width_);
-            if (counts_ != nullptr)
-                counts_->resize(size_t{end} * width_);
+            for (std::vector<uint32_t>* counts : counts_)
+                counts->resize(size_t{end} * width_);
             file_.readPixels(window_.min.y + static_cast<int>(row),
                              window_.min.y + static_cast<int>(end) - 1);
         }
@@ -199,7 +215,7 @@ class PixelReader {
     const uint32_t width_;
     const uint32_t height_;
     std::vector<Image*> images_;
-    std::vector<uint32_t>* counts_ = nullptr;
+    std::vector<std::vector<uint32_t>*> counts_;
     Imf::FrameBuffer buffer_;
 };
 
@@ -230,13 +246,35 @@ ExrFile readChannels(Imf::InputFile& file) {
     if (hasAll(channels, kVariance))
         reader.bindColor(result.variance.emplace(), kVariance);
     if (hasChannel(channels, kSamples))
-        reader.bindCounts(result.sampleCounts.emplace());
+        reader.bindCounts(result.sampleCounts.emplace(), kSamples);
     reader.read();
     if (grey)
         for (glm::vec3& pixel : result.radiance.pixels)
             pixel = glm::vec3(pixel.x);
     result.metadata = readMetadata(file.header());
     return result;
+}
+
+std::optional<UintImage> readCounts(Imf::InputFile& file, std::span<const std::string> names) {
+    const Imf::ChannelList& channels = file.header().channels();
+    for (const std::string& name : names)
+        if (!hasChannel(channels, name.c_str()) || channels[name.c_str()].type != Imf::UINT)
+            return std::nullopt;
+    const Imath::Box2i window = file.header().dataWindow();
+    UintImage image{static_cast<uint32_t>(window.max.x - window.min.x + 1),
+                    static_cast<uint32_t>(window.max.y - window.min.y + 1),
+                    {},
+                    readMetadata(file.header())};
+    std::vector<std::vector<uint32_t>> planes(names.size());
+    PixelReader reader(file);
+    for (size_t i = 0; i < names.size(); ++i)
+        reader.bindCounts(planes[i], names[i].c_str());
+    reader.read();
+    for (std::vector<uint32_t>& plane : planes) {
+        image.values.insert(image.values.end(), plane.begin(), plane.end());
+        plane = {};
+    }
+    return image;
 }
 
 // OpenEXR's messages begin with the file's name, which ours name already.
@@ -247,9 +285,25 @@ std::string reason(const std::exception& error, const std::filesystem::path& pat
     return at == std::string::npos ? message : message.substr(at + name.size());
 }
 
+template <typename Read>
+auto readWith(const std::filesystem::path& path, const Read& read) {
+    requireRegularFile(path);
+    useAllCores();
+    try {
+        requireSaneHeader(path);
+        Imf::InputFile file(path.c_str());
+        return read(file);
+    } catch (const std::bad_alloc&) {
+        throw Error(fmt::format("cannot read {}: its pixels do not fit into memory", path.string()));
+    } catch (const std::exception& error) {
+        throw Error(fmt::format("cannot read {}: {}", path.string(), reason(error, path)));
+    }
+}
+
 } // namespace
 
-void writeExr(const std::filesystem::path& path, const Rendering& rendering, const Metadata& metadata) {
+void writeExr(const std::filesystem::path& path, const Rendering& rendering, const Metadata& metadata,
+              std::span<const UintChannel> more) {
     [[maybe_unused]] const Image& image = rendering.radiance;
     assert(image.width > 0 && image.height > 0 && image.width <= kMaxImageSide &&
            image.height <= kMaxImageSide);
@@ -258,7 +312,7 @@ void writeExr(const std::filesystem::path& path, const Rendering& rendering, con
     useAllCores();
     writeFileAtomically(path, [&](const std::filesystem::path& part) {
         try {
-            writeChannels(part, rendering, metadata);
+            writeChannels(part, rendering, metadata, more);
         } catch (const std::exception& error) {
             throw Error(fmt::format("cannot write {}: {}", path.string(), reason(error, part)));
         }
@@ -266,18 +320,15 @@ void writeExr(const std::filesystem::path& path, const Rendering& rendering, con
 }
 
 ExrFile readExr(const std::filesystem::path& path) {
-    requireRegularFile(path);
-    useAllCores();
-    try {
-        requireSaneHeader(path);
-        Imf::InputFile file(path.c_str());
+    return readWith(path, [&](Imf::InputFile& file) {
         warnIfNotRec709(file.header(), path);
         return readChannels(file);
-    } catch (const std::bad_alloc&) {
-        throw Error(fmt::format("cannot read {}: its pixels do not fit into memory", path.string()));
-    } catch (const std::exception& error) {
-        throw Error(fmt::format("cannot read {}: {}", path.string(), reason(error, path)));
-    }
+    });
+}
+
+std::optional<UintImage> readUintChannels(const std::filesystem::path& path,
+                                          std::span<const std::string> names) {
+    return readWith(path, [&](Imf::InputFile& file) { return readCounts(file, names); });
 }
 
 } // namespace lavalight

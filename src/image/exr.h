@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,12 +16,20 @@ namespace lavalight {
 // Key and value; keys are non-empty and unique.
 using Metadata = std::vector<std::pair<std::string, std::string>>;
 
+// A channel of 32-bit unsigned numbers, row by row from the top.
+struct UintChannel {
+    std::string name;
+    std::span<const uint32_t> values;
+};
+
 // Writes a scan-line file with ZIP compression, all or nothing (base/file.h). Channels:
 //   R G B                              32-bit float, linear Rec. 709
 //   variance.R variance.G variance.B   32-bit float, the variance of each pixel's mean
 //   samples                            32-bit unsigned, how many samples each pixel rests on
-// Metadata become string attributes named "lavalight:<key>". Equal input gives equal bytes. Throws Error.
-void writeExr(const std::filesystem::path& path, const Rendering& rendering, const Metadata& metadata);
+// and `more`, which may stand in for `samples`. Metadata become string attributes named "lavalight:<key>".
+// Equal input gives equal bytes. Throws Error.
+void writeExr(const std::filesystem::path& path, const Rendering& rendering, const Metadata& metadata,
+              std::span<const UintChannel> more = {});
 
 struct ExrFile {
     Image radiance;                                    // the data window, wherever it lies
@@ -35,5 +44,17 @@ struct ExrFile {
 // otherwise gets a warning. Throws Error for whatever is no such file: missing, damaged, incomplete, larger
 // than kMaxImageSide, without colour.
 [[nodiscard]] ExrFile readExr(const std::filesystem::path& path);
+
+struct UintImage {
+    uint32_t width = 0;
+    uint32_t height = 0;
+    std::vector<uint32_t> values; // all of the first channel, then all of the second, and so on
+    Metadata metadata;            // as ExrFile's
+};
+
+// The channels of these names alone; nothing unless the file has them all, as 32-bit unsigned numbers. Throws
+// Error as readExr does.
+[[nodiscard]] std::optional<UintImage> readUintChannels(const std::filesystem::path& path,
+                                                        std::span<const std::string> names);
 
 } // namespace lavalight

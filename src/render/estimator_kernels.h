@@ -38,6 +38,7 @@ class EstimatorKernels {
 
     // The kernel must be one of that way.
     [[nodiscard]] const gpu::Kernel& operator[](std::string_view name) const;
+    [[nodiscard]] const std::map<std::string, gpu::Kernel, std::less<>>& all() const { return kernels_; }
     // Whether they are what the constructor would make of these.
     [[nodiscard]] bool serve(Kernels kernels, const EstimatorSettings& settings, uint32_t features) const;
     // For another render, which they cost no time.

@@ -1,7 +1,7 @@
 #include "render/film.h"
 
 #include <algorithm>
-#include <cmath>
+#include <cassert>
 
 #include <fmt/format.h>
 
@@ -21,55 +21,16 @@ uint32_t rowsPerBand(const gpu::Device& device, uint32_t width, uint32_t height,
     return wanted == 0 ? most : std::min(wanted, most);
 }
 
-uint64_t pairOfWords(std::span<const uint32_t> words, uint32_t which) {
-    return uint64_t{words[2 * which + 1]} << 32 | words[2 * which];
+// Copies words between a band's planes, each of `count` pixels, and the whole image's: a function of both.
+template <typename Copy>
+void forEachPlane(const FilmBand& band, const RawFilm& raw, const Copy& copy) {
+    const size_t count = size_t{band.rows} * raw.width;
+    const size_t first = size_t{band.firstRow} * raw.width;
+    for (size_t plane = 0; plane < kFilmWords; ++plane)
+        copy(plane * count, plane * raw.pixels() + first, count);
 }
-
-// All planes of a band, and the way to one pixel's numbers in them.
-class BandWords {
-  public:
-    explicit BandWords(const FilmBand& band)
-        : words_(band.sums.downloadAll<uint32_t>()), pixels_(words_.size() / kFilmWords) {}
-
-    [[nodiscard]] size_t pixels() const { return pixels_; }
-    [[nodiscard]] uint32_t count(size_t pixel) const { return words_[kCountPlane * pixels_ + pixel]; }
-    [[nodiscard]] PixelEstimate channel(size_t pixel, uint32_t channel) const {
-        const uint32_t plane = channel * kChannelWords;
-        return estimate(value<kSumWords>(pixel, plane, kSumLowestExponent),
-                        value<kSquareWords>(pixel, plane + kSumWords, kSquareLowestExponent), count(pixel));
-    }
-
-  private:
-    template <uint32_t Words>
-    [[nodiscard]] double value(size_t pixel, uint32_t plane, int lowestExponent) const {
-        std::array<uint32_t, Words> words;
-        for (uint32_t i = 0; i < Words; ++i)
-            words[i] = words_[(plane + i) * pixels_ + pixel];
-        return fromFixed(words, lowestExponent);
-    }
-
-    std::vector<uint32_t> words_;
-    size_t pixels_;
-};
 
 } // namespace
-
-double fromFixed(std::span<const uint32_t> words, int lowestExponent) {
-    double value = 0.0;
-    for (size_t i = words.size(); i-- > 0;)
-        value += std::ldexp(static_cast<double>(words[i]), lowestExponent + 32 * static_cast<int>(i));
-    return value;
-}
-
-PixelEstimate estimate(double sum, double sumOfSquares, uint32_t count) {
-    if (count == 0)
-        return {};
-    const double n = count;
-    const double mean = sum / n;
-    if (count == 1)
-        return {mean, 0.0};
-    return {mean, std::max(0.0, sumOfSquares / n - mean * mean) / (n - 1.0)};
-}
 
 Film::Film(gpu::Device& device, uint32_t width, uint32_t height, uint32_t bandRows)
     : device_(&device), width_(width), height_(height),
@@ -95,34 +56,51 @@ void Film::clear() {
 Rendering Film::resolve() const {
     Rendering rendering{Image(width_, height_), Image(width_, height_),
                         std::vector<uint32_t>(size_t{width_} * height_)};
-    for (const FilmBand& band : bands_) {
-        const BandWords words(band);
-        const size_t first = size_t{band.firstRow} * width_;
-        for (size_t pixel = 0; pixel < words.pixels(); ++pixel) {
-            rendering.sampleCounts[first + pixel] = words.count(pixel);
-            for (uint32_t channel = 0; channel < 3; ++channel) {
-                const PixelEstimate e = words.channel(pixel, channel);
-                const auto at = static_cast<glm::length_t>(channel);
-                rendering.radiance.pixels[first + pixel][at] = static_cast<float>(e.mean);
-                rendering.variance.pixels[first + pixel][at] = static_cast<float>(e.varianceOfMean);
-            }
-        }
-    }
+    for (const FilmBand& band : bands_)
+        resolvePixels(band.sums.downloadAll<uint32_t>(), size_t{band.firstRow} * width_, rendering);
     return rendering;
 }
 
 FilmTallies Film::readTallies() const {
+    return readable(rawTallies());
+}
+
+RawTallies Film::rawTallies() const {
     const std::vector<uint32_t> words = tallies_.downloadAll<uint32_t>();
-    FilmTallies tallies;
-    tallies.droppedSamples = pairOfWords(words, kTallyDropped);
-    tallies.saturatedSums = pairOfWords(words, kTallySaturated);
-    tallies.cutPaths = pairOfWords(words, kTallyCutPaths);
-    const double throughput = static_cast<double>(pairOfWords(words, kTallyCutThroughput)) / 65536.0;
-    tallies.cutThroughput = tallies.cutPaths > 0 ? throughput / static_cast<double>(tallies.cutPaths) : 0.0;
-    tallies.overlaps = pairOfWords(words, kTallyOverlaps);
-    const auto pair = static_cast<uint32_t>(pairOfWords(words, kTallyOverlapPair));
-    tallies.overlapping = {pair >> 16, pair & 0xffffu};
+    RawTallies tallies;
+    for (size_t i = 0; i < kTallyCount; ++i)
+        tallies[i] = uint64_t{words[2 * i + 1]} << 32 | words[2 * i];
     return tallies;
+}
+
+RawFilm Film::read() const {
+    RawFilm raw{width_, height_, std::vector<uint32_t>(kFilmWords * size_t{width_} * height_), rawTallies()};
+    for (const FilmBand& band : bands_) {
+        const std::vector<uint32_t> words = band.sums.downloadAll<uint32_t>();
+        forEachPlane(band, raw, [&](size_t ofBand, size_t ofImage, size_t count) {
+            std::copy_n(words.begin() + static_cast<ptrdiff_t>(ofBand), count,
+                        raw.words.begin() + static_cast<ptrdiff_t>(ofImage));
+        });
+    }
+    return raw;
+}
+
+void Film::restore(const RawFilm& raw) {
+    assert(raw.width == width_ && raw.height == height_);
+    for (FilmBand& band : bands_) {
+        std::vector<uint32_t> words(kFilmWords * size_t{band.rows} * width_);
+        forEachPlane(band, raw, [&](size_t ofBand, size_t ofImage, size_t count) {
+            std::copy_n(raw.words.begin() + static_cast<ptrdiff_t>(ofImage), count,
+                        words.begin() + static_cast<ptrdiff_t>(ofBand));
+        });
+        band.sums.upload(std::span<const uint32_t>(words));
+    }
+    std::vector<uint32_t> tallies;
+    for (const uint64_t count : raw.tallies) {
+        tallies.push_back(static_cast<uint32_t>(count));
+        tallies.push_back(static_cast<uint32_t>(count >> 32));
+    }
+    tallies_.upload(std::span<const uint32_t>(tallies));
 }
 
 } // namespace lavalight

@@ -8,6 +8,7 @@
 #include "gpu/buffer.h"
 #include "gpu/kernel.h"
 #include "render/albedo_table.h"
+#include "render/fingerprint.h"
 #include "render/kernel_source.h"
 #include "render/scene_data.h"
 
@@ -25,10 +26,13 @@ class GpuScene {
     // Kernels that were bound to the old one must be bound anew.
     void setAlbedoTable(AlbedoTable table) { albedoTable_ = std::move(table); }
 
+    // Of what was uploaded.
+    [[nodiscard]] const Fingerprints& fingerprints() const { return fingerprints_; }
     [[nodiscard]] double bvhSeconds() const { return bvhSeconds_; }
     [[nodiscard]] uint64_t bytes() const;
 
   private:
+    Fingerprints fingerprints_;
     double bvhSeconds_;
     gpu::Buffer nodes_;
     gpu::Buffer leafTriangles_;

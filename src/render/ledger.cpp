@@ -1,30 +1,12 @@
 #include "render/ledger.h"
 
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 namespace lavalight {
-
-namespace {
-
-std::string nameOfSolid(const Scene& scene, uint32_t number) {
-    constexpr uint32_t kBeyond = 0xffffu;
-    return number > 0 && number < kBeyond && number <= scene.meshes.size()
-               ? fmt::format("\"{}\"", scene.meshes[number - 1].name)
-               : "a mesh";
-}
-
-} // namespace
-
-std::string overlapText(const Scene& scene, const FilmTallies& tallies) {
-    return fmt::format(
-        "solids (KHR_materials_volume) overlap or have holes, such as {} and {}: {} paths were within two "
-        "at once, where neither medium is right",
-        nameOfSolid(scene, tallies.overlapping[0]), nameOfSolid(scene, tallies.overlapping[1]),
-        tallies.overlaps);
-}
 
 std::vector<LedgerEntry> makeLedger(const Scene& scene, const RenderSettings& settings,
                                     const FilmTallies& tallies, StopReason stop) {
@@ -41,17 +23,6 @@ std::vector<LedgerEntry> makeLedger(const Scene& scene, const RenderSettings& se
     if (stop == StopReason::targetError)
         ledger.push_back(
             {"stopped-on-estimate", fmt::format("the error estimate reached {}", settings.targetError)});
-    if (tallies.cutPaths > 0)
-        ledger.push_back({"cut-paths", fmt::format("{} paths ended by --max-bounces, mean throughput {:.4g}",
-                                                   tallies.cutPaths, tallies.cutThroughput)});
-    if (tallies.overlaps > 0)
-        ledger.push_back({"overlapping-solids", overlapText(scene, tallies)});
-    if (tallies.droppedSamples > 0)
-        ledger.push_back(
-            {"dropped-samples", fmt::format("{} samples were not finite", tallies.droppedSamples)});
-    if (tallies.saturatedSums > 0)
-        ledger.push_back(
-            {"saturated-sums", fmt::format("{} sums left the film's range", tallies.saturatedSums)});
     if (scene.environmentMap && scene.environmentMap->badTexels > 0)
         ledger.push_back(
             {"environment-values",
@@ -59,7 +30,47 @@ std::vector<LedgerEntry> makeLedger(const Scene& scene, const RenderSettings& se
                          scene.environmentMap->badTexels)});
     if (!scene.ignoredExtensions.empty())
         ledger.push_back({"ignored-extensions", fmt::format("{}", fmt::join(scene.ignoredExtensions, ", "))});
+    for (LedgerEntry& entry : tallyEntries(tallies))
+        ledger.push_back(std::move(entry));
     return ledger;
+}
+
+std::vector<LedgerEntry> tallyEntries(const FilmTallies& tallies) {
+    std::vector<LedgerEntry> ledger;
+    if (tallies.cutPaths > 0)
+        ledger.push_back({"cut-paths", fmt::format("{} paths ended by --max-bounces, mean throughput {:.4g}",
+                                                   tallies.cutPaths, tallies.cutThroughput)});
+    if (tallies.overlaps > 0)
+        ledger.push_back(
+            {"overlapping-solids",
+             fmt::format("{} paths were within two solids at once, where neither medium is right",
+                         tallies.overlaps)});
+    if (tallies.droppedSamples > 0)
+        ledger.push_back(
+            {"dropped-samples", fmt::format("{} samples were not finite", tallies.droppedSamples)});
+    if (tallies.saturatedSums > 0)
+        ledger.push_back(
+            {"saturated-sums", fmt::format("{} sums left the film's range", tallies.saturatedSums)});
+    return ledger;
+}
+
+namespace {
+
+std::string nameOfSolid(const Scene& scene, uint32_t number) {
+    constexpr uint32_t kBeyond = 0xffffu;
+    return number > 0 && number < kBeyond && number <= scene.meshes.size()
+               ? fmt::format("\"{}\"", scene.meshes[number - 1].name)
+               : "a mesh";
+}
+
+} // namespace
+
+std::string overlapText(const Scene& scene, const FilmTallies& tallies) {
+    return fmt::format(
+        "{} and {} overlap, or have holes (KHR_materials_volume): {} paths were within two such solids at "
+        "once, where neither medium is right; let solids touch, or leave a gap between them",
+        nameOfSolid(scene, tallies.overlapping[0]), nameOfSolid(scene, tallies.overlapping[1]),
+        tallies.overlaps);
 }
 
 std::string ledgerText(const std::vector<LedgerEntry>& ledger) {

@@ -20,7 +20,10 @@ struct LedgerEntry {
 [[nodiscard]] std::vector<LedgerEntry> makeLedger(const Scene& scene, const RenderSettings& settings,
                                                   const FilmTallies& tallies, StopReason stop);
 
-// What FilmTallies::overlaps says, with the names of two of the meshes.
+// What happened to samples: the end of the ledger.
+[[nodiscard]] std::vector<LedgerEntry> tallyEntries(const FilmTallies& tallies);
+
+// The warning that goes with overlapping solids, with the names of two of the meshes.
 [[nodiscard]] std::string overlapText(const Scene& scene, const FilmTallies& tallies);
 
 // One line for the EXR header: "none", or entries joined by "; ".

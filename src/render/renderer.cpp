@@ -232,7 +232,14 @@ void Renderer::startAnew() {
 
 StopReason Renderer::render(const KeepGoing& keepGoing) {
     const auto start = std::chrono::steady_clock::now();
-    while (!isDone()) {
+    for (;;) {
+        // Asked before a pass rather than after it: a render that is continued there has to ask as well.
+        const bool isPassOver = position_.passSamples == 0;
+        if (settings_.targetError > 0.0 && isPassOver && position_.samplesDone > 1 &&
+            errorEstimate(rendering()) <= settings_.targetError)
+            return StopReason::targetError;
+        if (isDone())
+            return StopReason::samples;
         step(settings_.waveSize);
         const double seconds =
             std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -240,12 +247,20 @@ StopReason Renderer::render(const KeepGoing& keepGoing) {
             return StopReason::interrupted;
         if (isTimed() && seconds >= settings_.seconds)
             return StopReason::time;
-        const bool isPassOver = position_.passSamples == 0;
-        if (settings_.targetError > 0.0 && isPassOver && position_.samplesDone > 1 &&
-            errorEstimate(rendering()) <= settings_.targetError)
-            return StopReason::targetError;
     }
-    return StopReason::samples;
+}
+
+FilmProgress Renderer::progress() const {
+    const uint32_t firstRow = film_.bands()[position_.band].firstRow;
+    return {position_.samplesDone, position_.passSamples, firstRow * film_.width() + position_.pixel};
+}
+
+void Renderer::continueFrom(const FilmProgress& progress, const RawFilm& film) {
+    assert(progress.passSamples <= settings_.waveSize);
+    film_.restore(film);
+    const uint32_t bandPixels = film_.bands().front().rows * film_.width(); // of all bands but the last
+    position_ = {progress.samples, progress.passSamples, progress.passPixels / bandPixels,
+                 progress.passPixels % bandPixels};
 }
 
 void Renderer::step(uint32_t mostSlots) {

@@ -56,6 +56,10 @@ class Renderer {
     // Whether all samples are taken.
     [[nodiscard]] bool isDone() const { return position_.samplesDone >= settings_.samples; }
     [[nodiscard]] const RenderPosition& position() const { return position_; }
+    // The same, whatever the bands, and back with the film that belongs to it: what follows has the bits that
+    // it would have had. Its pass must not take more samples at once than there are slots.
+    [[nodiscard]] FilmProgress progress() const;
+    void continueFrom(const FilmProgress& progress, const RawFilm& film);
 
     // Goes on with another view, or other settings, and an empty film. The scene stays on the device; kernels
     // are compiled where those there are do not serve. `scene` is still the same, and so are its lights

@@ -97,6 +97,7 @@ void fillInputs(RenderReport& report, const Scene& scene, const RenderSettings& 
 void fillResults(RenderReport& report, const Renderer& renderer, const gpu::Device& device,
                  const Rendering& rendering, const Scene& scene) {
     report.device = device.description();
+    report.content = fingerprintsOf(renderer);
     report.kernels = renderer.waves().kernelTimes();
     report.rays = renderer.waves().rays();
     report.tallies = renderer.film().readTallies();
@@ -124,21 +125,25 @@ std::string_view nameOf(StopReason reason) {
     return "";
 }
 
+std::string samplesPerPixel(uint64_t samples, uint64_t pixels) {
+    return fmt::format("{:.6g}", static_cast<double>(samples) / static_cast<double>(pixels));
+}
+
 Metadata exrMetadata(const RenderReport& report) {
-    Metadata metadata{
-        {"version", std::string(kVersion)},
-        {"scene", report.scene},
-        {"camera", report.camera},
-        {"device", report.device.name},
-        {"driver", report.device.driver},
-        {"samples-per-pixel",
-         fmt::format("{:.6g}", static_cast<double>(report.samples) /
-                                   (static_cast<double>(report.settings.width) * report.settings.height))},
-        {"render-seconds", fmt::format("{:.3f}", report.renderSeconds)},
-        {"complete", report.stop == StopReason::interrupted ? "no, interrupted" : "yes"},
-        {"bias-ledger", ledgerText(report.ledger)}};
+    Metadata metadata{{"version", std::string(kVersion)},
+                      {"scene", report.scene},
+                      {"camera", report.camera},
+                      {"device", report.device.name},
+                      {"driver", report.device.driver},
+                      {"samples-per-pixel", samplesPerPixel(report.samples, uint64_t{report.settings.width} *
+                                                                                report.settings.height)},
+                      {"render-seconds", fmt::format("{:.3f}", report.renderSeconds)},
+                      {"complete", report.stop == StopReason::interrupted ? "no, interrupted" : "yes"},
+                      {"bias-ledger", ledgerText(report.ledger)}};
     for (const auto& [key, value] : describeOptions(report))
         metadata.emplace_back("option:" + key, value);
+    for (const auto& [part, hash] : report.content)
+        metadata.emplace_back("content:" + part, hash);
     return metadata;
 }
 

@@ -8,6 +8,7 @@
 
 #include "gpu/device.h"
 #include "image/exr.h"
+#include "render/fingerprint.h"
 #include "render/ledger.h"
 #include "render/renderer.h"
 #include "render/settings.h"
@@ -26,6 +27,7 @@ struct RenderReport {
     std::string camera;
     RenderSettings settings;
     gpu::DeviceDescription device;
+    Fingerprints content; // of what was rendered
     StageTimes stages;
     double renderSeconds = 0.0;
     gpu::KernelTimes kernels;
@@ -51,6 +53,8 @@ void fillResults(RenderReport& report, const Renderer& renderer, const gpu::Devi
                  const Rendering& rendering, const Scene& scene);
 
 [[nodiscard]] std::string_view nameOf(StopReason reason);
+// Of `samples` over all pixels, for the header.
+[[nodiscard]] std::string samplesPerPixel(uint64_t samples, uint64_t pixels);
 [[nodiscard]] Metadata exrMetadata(const RenderReport& report);
 [[nodiscard]] std::string reportJson(const RenderReport& report);
 

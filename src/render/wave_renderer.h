@@ -26,6 +26,9 @@ struct RayCounts {
     uint64_t indirect = 0;
     uint64_t shadow = 0;
     [[nodiscard]] uint64_t total() const { return camera + indirect + shadow; }
+    [[nodiscard]] RayCounts operator+(const RayCounts& more) const {
+        return {camera + more.camera, indirect + more.indirect, shadow + more.shadow};
+    }
 };
 
 class WaveRenderer {

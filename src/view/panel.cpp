@@ -82,6 +82,8 @@ void drawSplit(ViewState& view, const glm::vec2& window) {
     ImGui::SetNextWindowPos(ImVec2(x - reach, 0.0f));
     ImGui::SetNextWindowSize(ImVec2(2.0f * reach, window.y));
     ImGui::SetNextWindowBgAlpha(0.0f);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0.0f);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(1.0f, 1.0f));
     ImGui::Begin("split", nullptr,
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                      ImGuiWindowFlags_NoBringToFrontOnFocus);
@@ -92,6 +94,7 @@ void drawSplit(ViewState& view, const glm::vec2& window) {
     if (ImGui::IsItemHovered() || ImGui::IsItemActive())
         ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
     ImGui::End();
+    ImGui::PopStyleVar(2);
 }
 
 void drawKeys(bool& isOpen) {

@@ -59,11 +59,9 @@ void drawStatistics(const char* title, const LiveStatistics& s) {
     line(fmt::format("{}{} samples in {:.1f} s", title, s.samples, s.seconds));
     line(fmt::format("{:.2f} M paths/s, {:.2f} M rays/s", perSecond(s.paths, s.seconds) * 1e-6,
                      perSecond(s.rays.total(), s.seconds) * 1e-6));
-    if (s.error >= 0.0) {
-        line(fmt::format("error {:.1f} % (relMSE {:.2g})", 100.0 * std::sqrt(s.error), s.error));
-        explain("Estimated from the samples' variance as if they were independent; Sobol's are better than "
-                "that");
-    }
+    line(s.error < 0.0 ? "error not known yet"
+                       : fmt::format("error {:.1f} % (relMSE {:.2g})", 100.0 * std::sqrt(s.error), s.error));
+    explain("Estimated from the samples' variance as if they were independent; Sobol's are better than that");
     drawKernels(s);
     drawPaths(s.raysPerBounce);
     ImGui::PopID();

@@ -20,6 +20,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+// Frames after input until ImGui has drawn its last consequence: a button is released in the frame after the
+// press, and only the next one knows.
+constexpr int kFramesToSettle = 3;
+
 // A camera that has been still for so long is looked through at full resolution.
 constexpr std::chrono::milliseconds kStillAfter(200);
 
@@ -57,6 +61,7 @@ Viewer::Viewer(ViewerConfig config)
 void Viewer::run() {
     while (!window_.isClosing()) {
         window_.wait(patience());
+        unsettled_ = window_.takeInput() ? kFramesToSettle : std::max(0, unsettled_ - 1);
         receive();
         presenter_.beginFrame();
         takeKeys();
@@ -72,7 +77,7 @@ void Viewer::run() {
 
 // Seconds until the window is drawn again, whatever happens.
 double Viewer::patience() const {
-    if (view_.isFlying)
+    if (view_.isFlying || unsettled_ > 0)
         return 0.016;
     return Clock::now() - lastMove_ < 2 * kStillAfter ? 0.05 : 0.5;
 }

@@ -68,6 +68,7 @@ class Viewer {
     Purpose purpose_ = Purpose::look;
     std::vector<std::pair<std::string, bool>> messages_; // and whether each is an error
     std::chrono::steady_clock::time_point lastMove_{};
+    int unsettled_ = 0; // frames
     bool isReady_ = false;
     bool isFinished_ = false;
     std::string title_;

@@ -31,14 +31,27 @@ void start() {
 
 } // namespace
 
+Window::Events& Window::eventsOf(GLFWwindow* window) {
+    return *static_cast<Events*>(glfwGetWindowUserPointer(window));
+}
+
 void Window::keepDrops(GLFWwindow* window, int count, const char** paths) {
-    auto& drops = static_cast<Events*>(glfwGetWindowUserPointer(window))->drops;
+    auto& drops = eventsOf(window).drops;
     drops.insert(drops.end(), paths, paths + count);
 }
 
 void Window::keepKey(GLFWwindow* window, int key, int, int action, int modifiers) {
+    eventsOf(window).hasInput = true;
     if (action == GLFW_PRESS)
-        static_cast<Events*>(glfwGetWindowUserPointer(window))->keys.push_back({key, modifiers});
+        eventsOf(window).keys.push_back({key, modifiers});
+}
+
+void Window::keepButton(GLFWwindow* window, int, int, int) {
+    eventsOf(window).hasInput = true;
+}
+
+void Window::keepMove(GLFWwindow* window, double, double) {
+    eventsOf(window).hasInput = true;
 }
 
 Window::Window(const std::string& title, const glm::uvec2& size) {
@@ -54,6 +67,9 @@ Window::Window(const std::string& title, const glm::uvec2& size) {
     glfwSetWindowUserPointer(window_, &events_);
     glfwSetDropCallback(window_, keepDrops);
     glfwSetKeyCallback(window_, keepKey);
+    glfwSetMouseButtonCallback(window_, keepButton);
+    glfwSetCursorPosCallback(window_, keepMove);
+    glfwSetScrollCallback(window_, keepMove);
 }
 
 Window::~Window() {
@@ -104,6 +120,10 @@ float Window::textScale() const {
     float y = 1.0f;
     glfwGetWindowContentScale(window_, &x, &y);
     return y;
+}
+
+bool Window::takeInput() {
+    return std::exchange(events_.hasInput, false);
 }
 
 std::vector<std::string> Window::takeDrops() {

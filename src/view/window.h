@@ -35,6 +35,8 @@ class Window {
     [[nodiscard]] glm::vec2 pixelsPerPoint() const;
     // How large the desktop wants its text.
     [[nodiscard]] float textScale() const;
+    // Whether a key or the mouse did anything since the last call.
+    [[nodiscard]] bool takeInput();
     // Paths of files that were dropped here since the last call.
     [[nodiscard]] std::vector<std::string> takeDrops();
     // Keys pressed since the last call, in order: GLFW_KEY_... and the GLFW_MOD_... held with it.
@@ -50,9 +52,13 @@ class Window {
     struct Events {
         std::vector<std::string> drops;
         std::vector<KeyPress> keys;
+        bool hasInput = false;
     };
+    [[nodiscard]] static Events& eventsOf(GLFWwindow* window);
     static void keepDrops(GLFWwindow* window, int count, const char** paths);
     static void keepKey(GLFWwindow* window, int key, int scancode, int action, int modifiers);
+    static void keepButton(GLFWwindow* window, int button, int action, int modifiers);
+    static void keepMove(GLFWwindow* window, double x, double y); // of the mouse, or of its wheel
 
     GLFWwindow* window_ = nullptr;
     Events events_;

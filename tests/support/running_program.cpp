@@ -107,8 +107,16 @@ void RunningProgram::waitUntilItCatchesInterrupts() {
 
 ProgramResult RunningProgram::interrupt() {
     waitUntilItCatchesInterrupts();
+    return endWith(SIGINT);
+}
+
+ProgramResult RunningProgram::kill() {
+    return endWith(SIGKILL);
+}
+
+ProgramResult RunningProgram::endWith(int signal) {
     if (!hasEnded())
-        ::kill(process_, SIGINT);
+        ::kill(process_, signal);
     return wait();
 }
 

@@ -32,9 +32,13 @@ class RunningProgram {
     [[nodiscard]] ProgramResult wait();
     // Sends SIGINT as soon as the program catches it, and waits for the end.
     [[nodiscard]] ProgramResult interrupt();
+    // Ends it at once, unless it has ended: SIGKILL.
+    [[nodiscard]] ProgramResult kill();
+
+    [[nodiscard]] bool hasEnded();
 
   private:
-    [[nodiscard]] bool hasEnded();
+    [[nodiscard]] ProgramResult endWith(int signal);
     [[nodiscard]] ProgramResult result() const;
 
     TemporaryFolder printed_;

@@ -19,8 +19,9 @@ namespace {
 
 constexpr std::chrono::seconds kPatience(60);
 
-// A small image, soon done, whose samples are counted.
-const std::vector<std::string> kImage{"--size", "240x180", "--spp", "8"};
+// Samples that are soon taken, and how a title says so.
+const std::vector<std::string> kSamples{"--spp", "8"};
+const std::vector<std::string> kSmall{"--size", "240x180"};
 constexpr const char* kDone = "8 samples, done";
 
 class View : public testing::Test {
@@ -31,9 +32,9 @@ class View : public testing::Test {
         return words;
     }
     // Opens the window, validated, and hides its panel.
-    void open(const std::vector<std::string>& words) {
-        program_ = std::make_unique<RunningProgram>(with({"view", "--validate"}, with(kImage, words)),
-                                                    folder_.path());
+    void open(const std::vector<std::string>& words, const std::vector<std::string>& size = kSmall) {
+        program_ = std::make_unique<RunningProgram>(
+            with({"view", "--validate"}, with(kSamples, with(size, words))), folder_.path());
         window_ = desktop_.findWindow("Lavalight");
         waitFor(kDone);
         key("Tab");
@@ -65,11 +66,12 @@ class View : public testing::Test {
         EXPECT_EQ(different, 0u) << "pixels of " << shown.pixels.size();
     }
     // What `lavalight render` makes of the same scene and settings.
-    [[nodiscard]] Screenshot rendered(const std::vector<std::string>& words) const {
-        const ProgramResult result =
-            runLavalight(with({"render", "--png", "wanted.png"}, with(kImage, words)), folder_.path());
+    [[nodiscard]] Screenshot rendered(const std::vector<std::string>& words,
+                                      const std::vector<std::string>& size = kSmall) const {
+        const ProgramResult result = runLavalight(
+            with({"render", "--png", "wanted.png"}, with(kSamples, with(size, words))), folder_.path());
         EXPECT_EQ(result.exitCode, 0) << result.err;
-        return readPicture((folder_ / "wanted.png").string());
+        return readPng(folder_ / "wanted.png");
     }
     // Closes it by the keyboard, and expects that nothing was wrong.
     void quit() {
@@ -96,17 +98,17 @@ TEST_F(View, IsMovedByMouseAndKeysAndComesHome) {
     const Screenshot home = rendered({"cornell-box"});
     expectShown(home);
     desktop_.input("mousemove --window " + window_ +
-                   " 120 90 mousedown 1 mousemove_relative 12 0 "
-                   "mousemove_relative 12 4 mouseup 1");
+                   " 120 90 mousedown 1 sleep 0.1 mousemove_relative 12 0 sleep 0.1 mousemove_relative 12 4 "
+                   "sleep 0.1 mouseup 1");
     waitFor(kDone);
     std::this_thread::sleep_for(std::chrono::milliseconds(500));
     waitFor(kDone);
     const Screenshot orbited = desktop_.shoot(window_);
-    EXPECT_NE(orbited, home);
+    EXPECT_TRUE(orbited != home);
     desktop_.input("windowfocus --sync " + window_ + " keydown w sleep 0.3 keyup w");
     std::this_thread::sleep_for(std::chrono::milliseconds(500));
     waitFor(kDone);
-    EXPECT_NE(desktop_.shoot(window_), orbited);
+    EXPECT_TRUE(desktop_.shoot(window_) != orbited);
     key("Home");
     expectShown(home);
     quit();
@@ -115,18 +117,19 @@ TEST_F(View, IsMovedByMouseAndKeysAndComesHome) {
 TEST_F(View, FollowsItsSize) {
     open({"cornell-box"});
     desktop_.input("windowsize --sync " + window_ + " 320 200");
-    expectShown(rendered({"cornell-box", "--size", "320x200"}));
+    expectShown(rendered({"cornell-box"}, {"--size", "320x200"}));
     quit();
 }
 
 TEST_F(View, SettingsOfThePanelRestartTheImage) {
-    open({"cornell-box", "--size", "400x600"});
-    expectShown(rendered({"cornell-box", "--size", "400x600"}));
+    const std::vector<std::string> size{"--size", "400x600"};
+    open({"cornell-box"}, size);
+    expectShown(rendered({"cornell-box"}, size));
     key("Tab");
     std::this_thread::sleep_for(std::chrono::milliseconds(300));
-    desktop_.input("mousemove --window " + window_ + " 32 331 sleep 0.2 click 1"); // next-event estimation
+    desktop_.input("mousemove --window " + window_ + " 30 388 sleep 0.2 click 1"); // next-event estimation
     key("Tab");
-    expectShown(rendered({"cornell-box", "--size", "400x600", "--nee", "off"}));
+    expectShown(rendered({"cornell-box", "--nee", "off"}, size));
     quit();
 }
 
@@ -140,8 +143,8 @@ TEST_F(View, ComparesTwoSettingsSideBySide) {
     size_t different = 0;
     for (size_t i = 0; i < one.pixels.size(); ++i)
         different += one.pixels[i] != two.pixels[i];
-    EXPECT_GE(different, size_t{one.height});
-    EXPECT_LE(different, size_t{3} * one.height);
+    EXPECT_GE(different, one.height / 2);
+    EXPECT_LE(different, size_t{2} * one.height);
     key("b");
     expectShown(one);
     quit();
@@ -166,14 +169,14 @@ TEST_F(View, SavesTheImageAsRenderWritesIt) {
     open({"cornell-box"});
     key("ctrl+s");
     ASSERT_TRUE(program_->waitForText("saved cornell-box-1.exr, cornell-box-1.png"));
-    const ProgramResult result =
-        runLavalight(with({"render", "cornell-box", "-o", "wanted.exr"}, kImage), folder_.path());
+    const ProgramResult result = runLavalight(
+        with({"render", "cornell-box", "-o", "wanted.exr"}, with(kSamples, kSmall)), folder_.path());
     ASSERT_EQ(result.exitCode, 0) << result.err;
     const ExrFile saved = readExr(folder_ / "cornell-box-1.exr");
     const ExrFile wanted = readExr(folder_ / "wanted.exr");
     EXPECT_EQ(saved.radiance.pixels, wanted.radiance.pixels);
     EXPECT_EQ(saved.sampleCounts, wanted.sampleCounts);
-    EXPECT_EQ(readPicture((folder_ / "cornell-box-1.png").string()), rendered({"cornell-box"}));
+    EXPECT_EQ(readPng(folder_ / "cornell-box-1.png"), rendered({"cornell-box"}));
     quit();
 }
 

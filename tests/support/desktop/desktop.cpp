@@ -4,7 +4,6 @@
 #include <chrono>
 #include <csignal>
 #include <cstdio>
-#include <sstream>
 #include <stdexcept>
 #include <thread>
 
@@ -14,14 +13,17 @@
 #include <unistd.h>
 
 #include <X11/Xlib.h>
+#include <X11/Xutil.h>
 
+#include "base/file.h"
+#include "image/picture.h"
 #include "support/desktop/drag_source.h"
 
 namespace lavalight::test {
 namespace {
 
 constexpr std::chrono::milliseconds kTurn(20);
-constexpr std::chrono::seconds kPatience(60);
+constexpr std::chrono::seconds kPatience(30);
 
 // With /dev/null for its output; `passed`: a descriptor that it gets as number 3.
 pid_t spawn(std::vector<std::string> words, int passed = -1) {
@@ -51,12 +53,15 @@ pid_t startServer(std::string& display) {
     const pid_t server =
         spawn({"Xvfb", "-displayfd", "3", "-screen", "0", "1280x800x24", "-nolisten", "tcp"}, ends[1]);
     ::close(ends[1]);
-    std::array<char, 16> text{};
-    const ssize_t length = ::read(ends[0], text.data(), text.size() - 1);
+    std::string number;
+    char digit = 0;
+    while (::read(ends[0], &digit, 1) == 1 &&
+           digit != '\n') // a pipe closed before its line end ends the server
+        number += digit;
     ::close(ends[0]);
-    if (length <= 0)
+    if (number.empty())
         throw std::runtime_error("Xvfb did not start");
-    display = ":" + std::to_string(std::stoi(text.data()));
+    display = std::string(":").append(number);
     return server;
 }
 
@@ -82,21 +87,6 @@ bool isManaged() {
         ::XFree(value);
     ::XCloseDisplay(display);
     return count > 0;
-}
-
-Screenshot parsePixmap(const std::string& bytes) {
-    std::istringstream in(bytes);
-    std::string magic;
-    int most = 0;
-    Screenshot shot;
-    in >> magic >> shot.width >> shot.height >> most;
-    in.get();
-    if (magic != "P6" || most != 255)
-        throw std::runtime_error("no picture of 8 bits a channel: " + bytes.substr(0, 100));
-    shot.pixels.resize(size_t{shot.width} * shot.height);
-    in.read(reinterpret_cast<char*>(shot.pixels.data()),
-            static_cast<std::streamsize>(shot.pixels.size() * 3));
-    return shot;
 }
 
 std::string outputOf(const std::string& command) {
@@ -145,7 +135,20 @@ std::string Desktop::titleOf(const std::string& window) const {
 }
 
 Screenshot Desktop::shoot(const std::string& window) const {
-    return parsePixmap(outputOf("import -silent -depth 8 -window " + window + " ppm:-"));
+    Display* const display = ::XOpenDisplay(nullptr);
+    const Window handle = std::stoul(window);
+    XWindowAttributes size;
+    ::XGetWindowAttributes(display, handle, &size);
+    Screenshot shot{static_cast<uint32_t>(size.width), static_cast<uint32_t>(size.height), {}};
+    XImage* const image = ::XGetImage(display, handle, 0, 0, shot.width, shot.height, AllPlanes, ZPixmap);
+    for (int y = 0; y < size.height; ++y)
+        for (int x = 0; x < size.width; ++x) {
+            const unsigned long pixel = XGetPixel(image, x, y); // of a screen of 24 bits
+            shot.pixels.emplace_back(pixel >> 16 & 255, pixel >> 8 & 255, pixel & 255);
+        }
+    XDestroyImage(image);
+    ::XCloseDisplay(display);
+    return shot;
 }
 
 void Desktop::input(const std::string& words) const {
@@ -157,8 +160,12 @@ void Desktop::drop(const std::string& path, const std::string& window) const {
     dragAndDrop(path, std::stoul(window));
 }
 
-Screenshot readPicture(const std::string& file) {
-    return parsePixmap(outputOf("convert '" + file + "' -depth 8 ppm:-"));
+Screenshot readPng(const std::filesystem::path& file) {
+    const Picture picture = decodePicture(readFile(file));
+    Screenshot shot{picture.width, picture.height, {}};
+    for (size_t at = 0; at < picture.bytes.size(); at += 4)
+        shot.pixels.emplace_back(picture.bytes[at], picture.bytes[at + 1], picture.bytes[at + 2]);
+    return shot;
 }
 
 } // namespace lavalight::test

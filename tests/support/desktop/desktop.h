@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -30,7 +31,8 @@ class Desktop {
     Desktop(const Desktop&) = delete;
     Desktop& operator=(const Desktop&) = delete;
 
-    // Of the window whose title begins so. Throws std::runtime_error where there is none within a minute.
+    // Of the window whose title begins so. Throws std::runtime_error where there is none within half a
+    // minute.
     [[nodiscard]] std::string findWindow(const std::string& title) const;
     [[nodiscard]] std::string titleOf(const std::string& window) const;
     // Only what is inside the window's frame.
@@ -46,7 +48,7 @@ class Desktop {
     pid_t manager_ = 0;
 };
 
-// A PNG as pixels, by the same tool that takes screenshots.
-[[nodiscard]] Screenshot readPicture(const std::string& file);
+// A PNG of 8 bits a channel, for comparison.
+[[nodiscard]] Screenshot readPng(const std::filesystem::path& file);
 
 } // namespace lavalight::test

@@ -124,5 +124,17 @@ TEST(RequireWritable, ThrowsWhereAFileCannotBeMade) {
     EXPECT_EQ(folder.count(), 0);
 }
 
+TEST(RemoveUnfinished, TakesWhatWritersOfThatFileLeftBehindAndNothingElse) {
+    const TemporaryFolder folder;
+    for (const char* name : {"file", "file.part", "file.1-0.part", "file.22-7.part", "file.1-0.txt",
+                             "other.1-0.part", "afile.1-0.part"})
+        writeFileAtomically(folder / name, "x");
+    removeUnfinished(folder / "file");
+    EXPECT_FALSE(fs::exists(folder / "file.1-0.part"));
+    EXPECT_FALSE(fs::exists(folder / "file.22-7.part"));
+    EXPECT_EQ(folder.count(), 5);
+    removeUnfinished(folder / "none" / "file");
+}
+
 } // namespace
 } // namespace lavalight

@@ -19,6 +19,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "support/full_disk.h"
 #include "support/temporary_folder.h"
 
 namespace lavalight {
@@ -141,6 +142,22 @@ TEST(Exr, OtherProgramsFindTheChannelsAndAttributesThatTheHeaderPromises) {
     ASSERT_NE(header.channels().findChannel("samples"), nullptr);
     EXPECT_EQ(header.channels().findChannel("samples")->type, Imf::UINT);
     EXPECT_NE(header.find("lavalight:seed"), header.end());
+}
+
+// The library writes its last bytes in a destructor.
+TEST(Exr, OnADiskThatIsFullAnywhereNothingIsLeft) {
+    const TemporaryFolder folder;
+    const Rendering rendering = sampleRendering(64, 64);
+    writeExr(folder / "whole.exr", rendering, {});
+    const size_t size = readFile(folder / "whole.exr").size();
+    for (const size_t room : {size_t{0}, size_t{100}, size / 2, size - 9000, size - 1}) {
+        const test::FullDisk disk(room);
+        EXPECT_THROW(writeExr(folder / "part.exr", rendering, {}), Error) << room << " of " << size;
+    }
+    EXPECT_EQ(folder.count(), 1);
+    const test::FullDisk disk(size);
+    writeExr(folder / "part.exr", rendering, {});
+    EXPECT_EQ(readFile(folder / "part.exr"), readFile(folder / "whole.exr"));
 }
 
 TEST(Exr, AnUnwritablePathIsAnErrorAndLeavesNothing) {

@@ -29,11 +29,12 @@ TEST(Ledger, NamesEveryCauseWithItsFigures) {
     const std::map<std::string, std::string> figures{{"dropped-samples", "11"},
                                                      {"saturated-sums", "22"},
                                                      {"cut-paths", "33"},
-                                                     {"overlapping-solids", "\"ice\" and a mesh: 44 paths"},
+                                                     {"overlapping-solids", "44 paths"},
                                                      {"ignored-extensions", "KHR_a, EXT_b"}};
     for (const LedgerEntry& entry : ledger)
         EXPECT_NE(entry.detail.find(figures.at(entry.cause)), std::string::npos)
             << entry.cause << ": " << entry.detail;
+    EXPECT_TRUE(overlapText(scene, tallies).starts_with("\"ice\" and a mesh overlap"));
     const std::string text = ledgerText(ledger);
     EXPECT_NE(text.find("0.25"), std::string::npos) << text;
     EXPECT_NE(text.find("; "), std::string::npos) << text;

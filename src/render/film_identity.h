@@ -1,0 +1,23 @@
+// Whether two films hold samples of the same image.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "image/exr.h"
+
+namespace lavalight {
+
+// A header of exrMetadata(), and what to call the film that it belongs to.
+struct FilmHeader {
+    const Metadata& metadata;
+    std::string name;
+};
+
+// What differs between two headers of what decides the bits of samples, with both values, in one line:
+// version, device, settings, scene, view, shaders. Empty if nothing does. Where the content of the scene
+// differs, so may its name, which alone does not count; `alsoDecisive`: names of further options that do.
+[[nodiscard]] std::string differences(const FilmHeader& a, const FilmHeader& b,
+                                      const std::vector<std::string>& alsoDecisive = {});
+
+} // namespace lavalight
