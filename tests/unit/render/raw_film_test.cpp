@@ -62,16 +62,18 @@ TEST(RawFilm, ASumSaturatedInBothFilmsIsOneSum) {
 TEST(RawFilm, CountsAndTalliesAddUp) {
     RawFilm a = emptyFilm();
     a.words[kCountPlane] = 3;
-    a.tallies = {1, 0, 2, 65536};
+    a.tallies = {1, 0, 2, 65536, 5, 0x20003};
     RawFilm b = emptyFilm();
     b.words[kCountPlane] = 4;
-    b.tallies = {10, 0, 2, 3 * 65536};
+    b.tallies = {10, 0, 2, 3 * 65536, 6, 0x20001};
     add(a, b);
     EXPECT_EQ(a.words[kCountPlane], 7u);
     const FilmTallies tallies = readable(a.tallies);
     EXPECT_EQ(tallies.droppedSamples, 11u);
     EXPECT_EQ(tallies.cutPaths, 4u);
     EXPECT_EQ(tallies.cutThroughput, 1.0); // the mean of both, by their paths
+    EXPECT_EQ(tallies.overlaps, 11u);
+    EXPECT_EQ(tallies.overlapping, (std::array<uint32_t, 2>{2, 3})); // one pair of them
 }
 
 TEST(RawFilm, ItsImageIsThatOfItsSums) {
