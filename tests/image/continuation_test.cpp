@@ -175,6 +175,19 @@ TEST_F(Continuation, FingerprintsAreThoseOfWhatChanged) {
     expectChange("environment", [](Scene& scene) { scene.environment.x = 0.5f; });
     expectChange("lights", [](Scene& scene) { scene.punctualLights.emplace_back(); });
     expectChange("view", [](Scene& scene) { scene.cameras.front().position.x += 0.001f; });
+    // A texel that differs is a texture that differs, and nothing else.
+    const auto texturedWith = [&](uint8_t red) {
+        return fingerprintsWith([&](Scene& scene) {
+            scene.pictures = {{"picture", 1, 1, false, {red, 2, 3, 255}}};
+            Mesh& mesh = scene.meshes.front();
+            mesh.uvs = {std::vector<glm::vec2>(mesh.positions.size(), glm::vec2(0.5f))};
+            scene.materials[mesh.material].textures.front() = Texture{};
+        });
+    };
+    const Fingerprints one = texturedWith(1);
+    const Fingerprints other = texturedWith(2);
+    for (const auto& [part, hash] : one)
+        EXPECT_EQ(hash == partOf(other, part), part != "textures") << part;
 }
 
 } // namespace
