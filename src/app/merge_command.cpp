@@ -15,6 +15,7 @@ MergeCommand::MergeCommand(CLI::App& app)
     parser()
         .add_option("parts", parts_, "Images of render --samples, of merge, or finished checkpoints")
         ->type_name("PART.exr")
+        ->default_str("")
         ->required();
     parser()
         .add_option("-o,--output", output_, "EXR file; it can be merged again")
