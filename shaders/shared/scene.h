@@ -150,8 +150,12 @@ SHARED_CONST uint kFeatureSheen = 0x40000u;
 SHARED_CONST uint kFeatureAnisotropy = 0x80000u;
 SHARED_CONST uint kFeatureIridescence = 0x100000u;
 SHARED_CONST uint kFeatureDiffuseTransmission = 0x200000u;
-SHARED_CONST uint kFeatureSpecialCamera = 0x400000u; // with a lens, or a panorama
-SHARED_CONST uint kAllFeatures = 0x7fffffu;
+SHARED_CONST uint kFeatureLens = 0x400000u; // of the camera, as the next two
+SHARED_CONST uint kFeaturePanorama = 0x800000u;
+SHARED_CONST uint kFeatureOrthographic = 0x1000000u;
+SHARED_CONST uint kFeatureLights = 0x2000000u;            // there are any
+SHARED_CONST uint kFeatureEnvironmentLight = 0x4000000u;  // the environment is among them
+SHARED_CONST uint kAllFeatures = 0x7ffffffu;
 
 // Directional albedo of the GGX lobe, tabulated over (sqrt(cosine), roughness); a row ends with its cosine-weighted average.
 SHARED_CONST uint kAlbedoCosines = 64u;
