@@ -24,12 +24,14 @@ void main() {
     const uint end = min(first + range.slotsPerLane, slotCount());
     if (first >= end)
         return;
-    Lane lane;
-    lane.slot = range.isFirst != 0u ? first : lanes[index].slot;
+    Lane lane = lanes[index];
+    if (lane.wave != range.wave) {
+        lane.wave = range.wave;
+        lane.slot = first;
+        lane.bounce = 0u;
+    }
     if (lane.slot >= end)
         return;
-    lane.bounce = range.isFirst != 0u ? 0u : lanes[index].bounce;
-    lane.ray = lanes[index].ray;
     Path path = paths[lane.slot];
     uint indirectRays = 0u;
     uint shadowRays = 0u;

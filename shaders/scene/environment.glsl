@@ -11,7 +11,8 @@ layout(set = 0, binding = BINDING_ENVIRONMENT_MAP) uniform usamplerBuffer enviro
 layout(set = 0, binding = BINDING_ENVIRONMENT_TABLE) uniform usamplerBuffer environmentQuads; // light/environment.h
 
 bool hasEnvironmentMap(FrameParameters frame) {
-    return sceneHas(kFeatureEnvironmentMap) && frame.environmentWidth > 0u;
+    const bool isSpecialised = kFeatures != kAllFeatures; // tests' kernels are not
+    return sceneHas(kFeatureEnvironmentMap) && (isSpecialised || frame.environmentWidth > 0u);
 }
 
 // The map turned by --env-rotation: what was in direction phi is in direction phi - rotation then.
@@ -98,7 +99,8 @@ EnvironmentPlace pickEnvironmentCell(FrameParameters frame, vec2 u) {
     const uvec2 cells = uvec2(frame.environmentWidth, frame.environmentHeight + 1u);
     EnvironmentPlace pick = EnvironmentPlace(uvec2(0u), u);
     uint start = 0u;
-    for (int level = findMSB(max(cells.x, cells.y) - 1u); level >= 0; --level) {
+    const float levels = uintBitsToFloat(texelFetch(environmentQuads, 0).w); // by the frame alone, lavapipe would unroll it
+    for (int level = int(levels) - 1; level >= 0; --level) {
         const uvec2 quads = (cells + (2u << level) - 1u) >> (level + 1);
         const vec3 quad =
             uintBitsToFloat(texelFetch(environmentQuads, int(start + pick.cell.y * quads.x + pick.cell.x)).xyz);

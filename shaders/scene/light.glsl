@@ -26,6 +26,11 @@ float lightPmf(FrameParameters frame, Receiver receiver, uint light) {
     return isInLightTree(frame, light) ? record.pmf * lightTreePmf(receiver, record.alias) : record.pmf;
 }
 
+// Of the environment, which is at infinity and so in no tree.
+float environmentPmf(FrameParameters frame) {
+    return fetchLight(frame.environmentLight).pmf;
+}
+
 struct LightPick {
     uint light;
     float pmf;   // 0: no light brings anything

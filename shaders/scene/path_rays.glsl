@@ -10,7 +10,7 @@ Ray cameraRayOf(uint slot) {
     const uint pixel = pixelOfSlot(slot);
     const vec2 corner = vec2(pixel % frame.imageWidth, pixel / frame.imageWidth);
     const SampleKey key = keyOfSlot(slot, 0u);
-    const vec2 lens = sceneHas(kFeatureSpecialCamera) ? sample2D(key, kDimensionLens) : vec2(0.0);
+    const vec2 lens = sceneHas(kFeatureLens) ? sample2D(key, kDimensionLens) : vec2(0.0);
     return cameraRay(frame, corner + sample2D(key, kDimensionPixel), lens);
 }
 

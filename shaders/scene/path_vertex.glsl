@@ -46,11 +46,9 @@ float hitLightPdf(Interaction surface, Hit hit, Ray ray) {
 }
 
 float missLightPdf(Ray ray) {
-    if (!sceneHas(kFeatureEnvironment | kFeatureEnvironmentMap) || frame.environmentLight == kNoLight || kNee == 0u)
+    if (!sceneHas(kFeatureEnvironmentLight) || kNee == 0u)
         return 0.0;
-    const Receiver receiver = unpackReceiver(ray.origin, ray.receiver);
-    return lightPmf(frame, receiver, frame.environmentLight) *
-           environmentPdf(frame, ray.direction, ray.originCosine);
+    return environmentPmf(frame) * environmentPdf(frame, ray.direction, ray.originCosine);
 }
 
 bool isTransmissiveSolid(MaterialRecord m) {
@@ -190,7 +188,7 @@ NextRays scatter(Hit hit, Ray ray, uint slot, uint bounce, inout Path path) {
     const Vertex vertex = makeVertex(surface, material, -ray.direction, key);
 
     // ---- Next-event estimation ----
-    if (kNee != 0u && frame.lightColumns > 0u && hasNonDelta(vertex.bsdf))
+    if (kNee != 0u && sceneHas(kFeatureLights) && hasNonDelta(vertex.bsdf))
         next.wantsShadowRay = nextEvent(vertex, path.throughput, next.shadow);
 
     // ---- BSDF sampling and roulette ----

@@ -150,9 +150,13 @@ SHARED_CONST uint kFeatureSheen = 0x40000u;
 SHARED_CONST uint kFeatureAnisotropy = 0x80000u;
 SHARED_CONST uint kFeatureIridescence = 0x100000u;
 SHARED_CONST uint kFeatureDiffuseTransmission = 0x200000u;
-SHARED_CONST uint kFeatureSpecialCamera = 0x400000u; // with a lens, or a panorama
-SHARED_CONST uint kFeatureSolids = 0x800000u; // two solids that may overlap
-SHARED_CONST uint kAllFeatures = 0xffffffu;
+SHARED_CONST uint kFeatureLens = 0x400000u; // of the camera, as the next two
+SHARED_CONST uint kFeaturePanorama = 0x800000u;
+SHARED_CONST uint kFeatureOrthographic = 0x1000000u;
+SHARED_CONST uint kFeatureLights = 0x2000000u;            // there are any
+SHARED_CONST uint kFeatureEnvironmentLight = 0x4000000u;  // the environment is among them
+SHARED_CONST uint kFeatureSolids = 0x8000000u; // two solids that may overlap
+SHARED_CONST uint kAllFeatures = 0xfffffffu;
 
 // Directional albedos of the GGX lobe and of sheen, tabulated over angle and roughness (lib/albedo_grid.glsl), row by row;
 // then the cosine-weighted averages of the GGX lobe's, kAveragesPerRow to the distance of two rows.

@@ -60,7 +60,8 @@ struct Lane {
     Ray ray;
     uint slot;
     uint bounce; // 0: the path of the slot is yet to start
-    uint unused[2];
+    uint wave;   // in which that was so
+    uint unused;
 };
 
 // Vertices that an invocation of the fused kernel goes on for in one dispatch. Mesa 22.3's lavapipe ends all loops of an
@@ -99,7 +100,7 @@ struct WaveRange {
     uint bandFirstPixel; // the film at hand starts with this pixel
     uint bounce;
     uint slotsPerLane; // fused kernel: consecutive slots that an invocation takes, one after another
-    uint isFirst;      // fused kernel: lanes start anew
+    uint wave;         // fused kernel: lanes of another wave start anew
     uint groupStride;  // fused kernel: workgroup i takes the lanes of group i * groupStride, modulo their number
 };
 

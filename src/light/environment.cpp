@@ -105,6 +105,7 @@ EnvironmentDistribution makeEnvironmentDistribution(const Image& map) {
     std::vector<double> pmfs{1.0};
     for (size_t level = levels.size() - 1; level-- > 0;)
         appendQuads(levels[level], distribution.quads, pmfs);
+    distribution.quads.front().levels = static_cast<float>(levels.size() - 1);
     distribution.scales.reserve(pmfs.size());
     for (size_t i = 0; i < pmfs.size(); ++i) {
         const double mass = levels[0].masses[i];

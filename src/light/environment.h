@@ -15,7 +15,7 @@ struct EnvironmentQuad {
     float top = 1.0f;          // probability of the upper half; rows count from the top
     float leftOfTop = 1.0f;    // of its left quarter
     float leftOfBottom = 1.0f; // of the left quarter of the lower half
-    float unused = 0.0f;
+    float levels = 0.0f;       // of the first quad alone: of quads, in all
 };
 
 // Cells lie between texel centres, where lookups are bilinear: cell (x, y) has texel (x, y) at its lower

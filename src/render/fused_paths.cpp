@@ -54,17 +54,20 @@ FusedPaths::FusedPaths(gpu::Device& device, const WaveInputs& inputs)
     bands_.reserve(inputs.film.bands().size());
     for (const FilmBand& band : inputs.film.bands())
         bands_.emplace_back(device, state_, inputs, band);
+    commands_.begin();
+    commands_.fill(state_.lanes, 0); // of no wave
+    commands_.submitAndWait();
 }
 
 void FusedPaths::renderWave(size_t bandIndex, WaveRange range) {
     const Band& band = bands_[bandIndex];
     const uint32_t slots = range.pixelCount * range.sampleCount;
     range.slotsPerLane = slotsPerLane(slots);
-    range.isFirst = 1;
+    range.wave = ++wave_;
     const uint32_t lanes = (slots + range.slotsPerLane - 1) / range.slotsPerLane;
     range.groupStride = strideThrough(groupsFor(lanes));
-    while (advance(band, range, lanes) > 0)
-        range.isFirst = 0;
+    while (advance(band, range, lanes) > 0) {
+    }
     commands_.begin();
     commands_.dispatch(band.accumulate, groupsFor(range.pixelCount), pushed(range));
     commands_.submitAndWait();

@@ -32,6 +32,7 @@ class FusedPaths : public WaveRenderer {
 
     State state_;
     std::vector<Band> bands_;
+    uint32_t wave_ = 0; // the one under way
 };
 
 } // namespace lavalight

@@ -124,12 +124,21 @@ uint32_t sceneFeatures(const Scene& scene, const Lights& lights) {
     if (lights.environmentRadiance != glm::vec3(0.0f))
         features |= lights.environmentMap ? kFeatureEnvironmentMap : kFeatureEnvironment;
     features |= lights.tree.nodes.empty() ? 0u : kFeatureLightTree;
+    features |= lights.table.empty() ? 0u : kFeatureLights;
+    features |= lights.environment ? kFeatureEnvironmentLight : 0u;
     return features;
 }
 
 uint32_t cameraFeatures(const Camera& camera) {
-    const bool isSpecial = camera.projection == Projection::panorama || camera.lensRadius > 0.0f;
-    return isSpecial ? kFeatureSpecialCamera : 0u;
+    switch (camera.projection) {
+    case Projection::perspective:
+        return camera.lensRadius > 0.0f ? kFeatureLens : 0u;
+    case Projection::orthographic:
+        return kFeatureOrthographic;
+    case Projection::panorama:
+        return kFeaturePanorama;
+    }
+    return 0;
 }
 
 } // namespace lavalight
