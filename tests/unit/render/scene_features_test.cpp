@@ -153,10 +153,10 @@ TEST(SceneFeatures, LightsAndNormalsAreNamed) {
     scene.materials = {lambert()};
     scene.environment = glm::vec3(1.0f);
     scene.bounds = {glm::vec3(-1.0f), glm::vec3(1.0f)};
-    EXPECT_EQ(featuresOf(scene), kFeatureEnvironment);
+    EXPECT_EQ(featuresOf(scene), kFeatureEnvironment | kFeatureLights | kFeatureEnvironmentLight);
     scene.environment = glm::vec3(0.0f);
     scene.punctualLights.emplace_back();
-    EXPECT_EQ(featuresOf(scene), kFeaturePunctualLights);
+    EXPECT_EQ(featuresOf(scene), kFeaturePunctualLights | kFeatureLights);
     scene.punctualLights.clear();
     Mesh mesh;
     mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
@@ -164,9 +164,20 @@ TEST(SceneFeatures, LightsAndNormalsAreNamed) {
     scene.meshes = {mesh};
     EXPECT_EQ(featuresOf(scene), 0u);
     scene.materials.front().emission = glm::vec3(1.0f);
-    EXPECT_EQ(featuresOf(scene), kFeatureTriangleLights);
+    EXPECT_EQ(featuresOf(scene), kFeatureTriangleLights | kFeatureLights);
     scene.meshes.front().normals.assign(3, {0, 0, 1});
-    EXPECT_EQ(featuresOf(scene), kFeatureTriangleLights | kFeatureShadingNormals);
+    EXPECT_EQ(featuresOf(scene), kFeatureTriangleLights | kFeatureLights | kFeatureShadingNormals);
+}
+
+TEST(SceneFeatures, EachKindOfCameraIsOne) {
+    Camera camera;
+    EXPECT_EQ(cameraFeatures(camera), 0u);
+    camera.lensRadius = 0.1f;
+    EXPECT_EQ(cameraFeatures(camera), kFeatureLens);
+    camera.projection = Projection::orthographic;
+    EXPECT_EQ(cameraFeatures(camera), kFeatureOrthographic);
+    camera.projection = Projection::panorama;
+    EXPECT_EQ(cameraFeatures(camera), kFeaturePanorama);
 }
 
 } // namespace
