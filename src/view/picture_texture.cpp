@@ -78,9 +78,11 @@ void PictureTexture::upload(const vk::raii::CommandBuffer& commands) {
 void PictureTexture::draw(const vk::raii::CommandBuffer& commands, const Target& target) {
     if (!isUploaded_)
         upload(commands);
-    const glm::dvec2 scale = glm::dvec2(size_) / glm::dvec2(target.window);
-    const glm::dvec2 from = glm::floor(glm::dvec2(target.from) * scale);
-    const glm::dvec2 to = glm::max(glm::ceil(glm::dvec2(target.to) * scale), from + 1.0);
+    // At least a pixel, and none beyond the picture, however small the part.
+    const glm::dvec2 size(size_);
+    const glm::dvec2 scale = size / glm::dvec2(target.window);
+    const glm::dvec2 from = glm::min(glm::floor(glm::dvec2(target.from) * scale), size - 1.0);
+    const glm::dvec2 to = glm::clamp(glm::ceil(glm::dvec2(target.to) * scale), from + 1.0, size);
     const vk::ImageBlit blit(
         kLayer, {corner(from), {static_cast<int32_t>(to.x), static_cast<int32_t>(to.y), 1}}, kLayer,
         {corner(target.from), {static_cast<int32_t>(target.to.x), static_cast<int32_t>(target.to.y), 1}});
