@@ -10,11 +10,6 @@
 layout(set = 0, binding = BINDING_ENVIRONMENT_MAP) uniform usamplerBuffer environmentMap; // texel and scale of each cell
 layout(set = 0, binding = BINDING_ENVIRONMENT_TABLE) uniform usamplerBuffer environmentQuads; // light/environment.h
 
-bool hasEnvironmentMap(FrameParameters frame) {
-    const bool isSpecialised = kFeatures != kAllFeatures; // tests' kernels are not
-    return sceneHas(kFeatureEnvironmentMap) && (isSpecialised || frame.environmentWidth > 0u);
-}
-
 // The map turned by --env-rotation: what was in direction phi is in direction phi - rotation then.
 vec2 environmentPoint(FrameParameters frame, vec3 wi) {
     vec2 uv = directionToEquirectangular(wi);
@@ -69,7 +64,7 @@ EnvironmentPlace environmentPlace(FrameParameters frame, vec2 uv) {
 }
 
 vec3 environmentRadiance(FrameParameters frame, vec3 wi) {
-    if (!hasEnvironmentMap(frame))
+    if (!sceneHas(kFeatureEnvironmentMap))
         return frame.environment;
     const EnvironmentPlace p = environmentPlace(frame, environmentPoint(frame, wi));
     return frame.environment * interpolated(fetchEnvironmentCell(frame, p.cell), p.place);
@@ -78,7 +73,7 @@ vec3 environmentRadiance(FrameParameters frame, vec3 wi) {
 // A constant environment is sampled by the cosine around the receiver's normal, which leaves a diffuse surface no variance
 // but that of visibility; what comes from behind is left to BSDF rays. cosTheta: between normal and direction.
 float environmentPdf(FrameParameters frame, vec3 wi, float cosTheta) {
-    if (!hasEnvironmentMap(frame))
+    if (!sceneHas(kFeatureEnvironmentMap))
         return squareToCosineHemispherePdf(cosTheta);
     const vec2 uv = environmentPoint(frame, wi);
     EnvironmentPlace p = environmentPlace(frame, uv);
@@ -147,7 +142,7 @@ LightSample sampleEnvironment(FrameParameters frame, vec3 from, vec3 n, vec2 u, 
     LightSample light = kNoLightSample;
     if (sceneHas(kFeatureEnvironment))
         light = sampleConstantEnvironment(frame, n, u);
-    if (hasEnvironmentMap(frame))
+    if (sceneHas(kFeatureEnvironmentMap))
         light = sampleEnvironmentMap(frame, u);
     light.end = from + reach * light.wi;
     light.isDelta = false;

@@ -128,9 +128,10 @@ int RenderCommand::run() {
         configureLog(LogLevel::quiet);
     if (outputs_.exr.empty() && outputs_.png.empty())
         outputs_.exr = std::filesystem::path(scene_).stem().string() + ".exr";
-    if (tone_.isCurveGiven() && outputs_.png.empty())
-        throw UsageError("--tonemap: only a PNG is tone mapped; give --png OUT.png, or leave it out");
-    Session session{options_.settings(), tone_.settings()};
+    const ToneSettings tone = tone_.settings();
+    if (tone_.isGiven() && outputs_.png.empty())
+        throw UsageError("--tonemap and --exposure are for a PNG; give --png OUT.png, or leave them out");
+    Session session{options_.settings(), tone};
     outputs_.checkpoint = checkpoints_.file(session.settings);
     if (const auto overlay = shaders_.overlay())
         session.use(overlay);

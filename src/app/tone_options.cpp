@@ -21,8 +21,8 @@ ToneSettings ToneOptions::settings() const {
     return tone_;
 }
 
-bool ToneOptions::isCurveGiven() const {
-    return parser_->count("--tonemap") > 0;
+bool ToneOptions::isGiven() const {
+    return parser_->count("--tonemap") > 0 || parser_->count("--exposure") > 0;
 }
 
 } // namespace lavalight

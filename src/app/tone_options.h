@@ -16,7 +16,7 @@ class ToneOptions {
 
     // Throws UsageError for an exposure that is none.
     [[nodiscard]] ToneSettings settings() const;
-    [[nodiscard]] bool isCurveGiven() const;
+    [[nodiscard]] bool isGiven() const;
 
   private:
     CLI::App* parser_; // asked which options were given

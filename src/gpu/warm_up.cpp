@@ -8,8 +8,9 @@
 namespace lavalight::gpu {
 namespace {
 
-const Buffer& addBuffer(Device& device, BindingKind kind, std::span<const std::byte> uniforms,
-                        std::deque<Buffer>& buffers) {
+constexpr uint64_t kUniformBytes = 16384; // as much as any kernel declares
+
+const Buffer& addBuffer(Device& device, BindingKind kind, std::deque<Buffer>& buffers) {
     switch (kind) {
     case BindingKind::uniformTexelBuffer:
         return buffers.emplace_back(device, "warm-up texels", 0, BufferUse::texels);
@@ -18,14 +19,12 @@ const Buffer& addBuffer(Device& device, BindingKind kind, std::span<const std::b
     case BindingKind::uniformBuffer:
         break;
     }
-    Buffer& buffer = buffers.emplace_back(device, "warm-up uniforms", uniforms.size(), BufferUse::uniform);
-    buffer.upload(uniforms);
-    return buffer;
+    return buffers.emplace_back(device, "warm-up uniforms", kUniformBytes, BufferUse::uniform);
 }
 
 } // namespace
 
-void warmUp(Device& device, std::span<const Kernel* const> kernels, std::span<const std::byte> uniforms) {
+void warmUp(Device& device, std::span<const Kernel* const> kernels) {
     std::deque<Buffer> buffers; // at fixed addresses, until all is done
     std::deque<BoundKernel> bound;
     Commands commands(device);
@@ -33,7 +32,7 @@ void warmUp(Device& device, std::span<const Kernel* const> kernels, std::span<co
     for (const Kernel* kernel : kernels) {
         ResourceTable resources;
         for (const KernelBinding& binding : kernel->code().bindings)
-            resources.set(binding.name, addBuffer(device, binding.kind, uniforms, buffers));
+            resources.set(binding.name, addBuffer(device, binding.kind, buffers));
         const std::vector<std::byte> parameters(kernel->code().pushConstantBytes);
         commands.dispatch(bound.emplace_back(device, *kernel, resources), 0, parameters);
     }

@@ -1,7 +1,6 @@
 // Compiling kernels ahead of their first use.
 #pragma once
 
-#include <cstddef>
 #include <span>
 
 #include "gpu/device.h"
@@ -11,8 +10,7 @@ namespace lavalight::gpu {
 
 // Runs dispatches of no workgroups, with buffers of no meaning. Drivers for CPUs generate a kernel's machine
 // code at its first dispatch: this takes that time out of the first that counts, and may run beside work on
-// the host. `uniforms`: the contents of uniform buffers as they will be, which drivers may fold into the
-// code.
-void warmUp(Device& device, std::span<const Kernel* const> kernels, std::span<const std::byte> uniforms);
+// the host.
+void warmUp(Device& device, std::span<const Kernel* const> kernels);
 
 } // namespace lavalight::gpu

@@ -34,15 +34,14 @@ std::vector<std::string_view> estimatorKernelNames(Kernels kernels) {
 }
 
 EstimatorKernels::EstimatorKernels(gpu::Device& device, Kernels kernels, const EstimatorSettings& settings,
-                                   uint32_t features, const FrameParameters& frame,
-                                   const KernelSource& source)
+                                   uint32_t features, const KernelSource& source)
     : way_(kernels), constants_(estimatorConstants(settings, features)) {
     const auto start = std::chrono::steady_clock::now();
     std::vector<const gpu::Kernel*> made;
     for (const std::string_view name : estimatorKernelNames(kernels))
         made.push_back(
             &kernels_.try_emplace(std::string(name), device, source(name), constants_).first->second);
-    gpu::warmUp(device, made, std::as_bytes(std::span(&frame, 1)));
+    gpu::warmUp(device, made);
     seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
@@ -54,12 +53,12 @@ std::vector<std::string> EstimatorKernels::changed(const KernelSource& source) c
     return names;
 }
 
-void EstimatorKernels::reload(gpu::Device& device, const FrameParameters& frame, const KernelSource& source) {
+void EstimatorKernels::reload(gpu::Device& device, const KernelSource& source) {
     std::map<std::string, gpu::Kernel, std::less<>> fresh;
     std::vector<const gpu::Kernel*> made;
     for (const std::string& name : changed(source))
         made.push_back(&fresh.try_emplace(name, device, source(name), constants_).first->second);
-    gpu::warmUp(device, made, std::as_bytes(std::span(&frame, 1)));
+    gpu::warmUp(device, made);
     for (auto& [name, kernel] : fresh)
         kernels_.insert_or_assign(name, std::move(kernel));
 }

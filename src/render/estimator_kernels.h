@@ -26,15 +26,15 @@ namespace lavalight {
 // The kernels of one way to render, specialised, and compiled by the driver. No scene need be uploaded yet.
 class EstimatorKernels {
   public:
-    // `kernels` must not be automatic; `frame` is what they will be run with.
+    // `kernels` must not be automatic.
     EstimatorKernels(gpu::Device& device, Kernels kernels, const EstimatorSettings& settings,
-                     uint32_t features, const FrameParameters& frame, const KernelSource& source);
+                     uint32_t features, const KernelSource& source);
 
     // Names of those whose code `source` changes. Throws Error as `source` does.
     [[nodiscard]] std::vector<std::string> changed(const KernelSource& source) const;
     // Compiles those anew; what was bound to them must be bound anew. Throws Error with every kernel as it
     // was.
-    void reload(gpu::Device& device, const FrameParameters& frame, const KernelSource& source);
+    void reload(gpu::Device& device, const KernelSource& source);
 
     // The kernel must be one of that way.
     [[nodiscard]] const gpu::Kernel& operator[](std::string_view name) const;

@@ -129,7 +129,7 @@ struct Renderer::Setup {
     SceneData scene;
     LightSelection lightSelection;
 
-    using MakeKernels = std::function<EstimatorKernels(uint32_t features, const FrameParameters& frame)>;
+    using MakeKernels = std::function<EstimatorKernels(uint32_t features)>;
 
     static Setup make(const Scene& scene, const Camera& camera, const RenderSettings& settings,
                       const MakeKernels& makeKernels) {
@@ -140,7 +140,7 @@ struct Renderer::Setup {
             std::async(std::launch::async, [&] { return packScene(scene, lights); });
         FrameParameters frame = makeFrame(scene, camera, settings);
         setLights(frame, lights);
-        EstimatorKernels kernels = makeKernels(sceneFeatures(scene, lights) | cameraFeatures(camera), frame);
+        EstimatorKernels kernels = makeKernels(sceneFeatures(scene, lights) | cameraFeatures(camera));
         return {frame, std::move(kernels), packed.get(), lights.selection};
     }
 };
@@ -150,11 +150,9 @@ Renderer::Renderer(gpu::Device& device, const Scene& scene, const Camera& camera
     : Renderer(
           device, resolveKernels(wanted, device.description().isCpu),
           [&](const RenderSettings& settings) {
-              return Setup::make(scene, camera, settings,
-                                 [&](uint32_t features, const FrameParameters& frame) {
-                                     return EstimatorKernels(device, settings.kernels, settings.estimator,
-                                                             features, frame, source);
-                                 });
+              return Setup::make(scene, camera, settings, [&](uint32_t features) {
+                  return EstimatorKernels(device, settings.kernels, settings.estimator, features, source);
+              });
           },
           source) {}
 
@@ -163,13 +161,11 @@ Renderer::Renderer(gpu::Device& device, const Scene& scene, const Camera& camera
     : Renderer(
           device, resolveKernels(wanted, device.description().isCpu),
           [&](const RenderSettings& settings) {
-              return Setup::make(scene, camera, settings,
-                                 [&](uint32_t features, const FrameParameters& frame) {
-                                     if (earlier.serve(settings.kernels, settings.estimator, features))
-                                         return std::move(earlier);
-                                     return EstimatorKernels(device, settings.kernels, settings.estimator,
-                                                             features, frame, source);
-                                 });
+              return Setup::make(scene, camera, settings, [&](uint32_t features) {
+                  if (earlier.serve(settings.kernels, settings.estimator, features))
+                      return std::move(earlier);
+                  return EstimatorKernels(device, settings.kernels, settings.estimator, features, source);
+              });
           },
           source) {}
 
@@ -199,7 +195,7 @@ void Renderer::reloadKernels(const KernelSource& source) {
     std::optional<AlbedoTable> table;
     if (std::find(names.begin(), names.end(), "albedo") != names.end())
         table = makeAlbedoTable(*device_, source("albedo"));
-    kernels_.reload(*device_, frame_, source);
+    kernels_.reload(*device_, source);
     if (table)
         scene_.setAlbedoTable(std::move(*table));
     startAnew();
@@ -213,7 +209,7 @@ void Renderer::restart(const Scene& scene, const Camera& camera, const RenderSet
     copyLights(frame_, frame);
     const uint32_t features = sceneFeatures_ | cameraFeatures(camera);
     if (!kernels_.serve(settings.kernels, settings.estimator, features)) {
-        EstimatorKernels fresh(*device_, settings.kernels, settings.estimator, features, frame, source);
+        EstimatorKernels fresh(*device_, settings.kernels, settings.estimator, features, source);
         kernels_ = std::move(fresh);
     }
     if (settings.width != film_.width() || settings.height != film_.height())

@@ -31,7 +31,7 @@ ToneMapper::ToneMapper(gpu::Device& device, const KernelSource& source)
             {{CONSTANT_TONE_CURVE, static_cast<uint32_t>(curve.value)}}};
         made.push_back(&kernels_.try_emplace(curve.value, device, code, constants).first->second);
     }
-    gpu::warmUp(device, made, {});
+    gpu::warmUp(device, made);
 }
 
 std::vector<uint32_t> ToneMapper::map(const Film& film, const ToneSettings& tone) {

@@ -43,37 +43,31 @@ struct LiveRender::Work {
 LiveRender::LiveRender(const gpu::DeviceConfig& device, std::function<void()> wake)
     : config_(device), device_(device), wake_(std::move(wake)), thread_([this] { run(); }) {}
 
-LiveRender::~LiveRender() {
+// Whoever gives orders waits no longer than for another one.
+template <typename Change>
+void LiveRender::order(const Change& change) {
     {
         const std::lock_guard lock(mutex_);
-        isEnding_ = true;
+        change();
     }
     orders_.notify_one();
+}
+
+LiveRender::~LiveRender() {
+    order([&] { isEnding_ = true; });
     thread_.join();
 }
 
 void LiveRender::show(const LiveRequest& request) {
-    {
-        const std::lock_guard lock(mutex_);
-        wanted_ = request;
-    }
-    orders_.notify_one();
+    order([&] { wanted_ = request; });
 }
 
 void LiveRender::inspect(const glm::uvec2& pixel, uint32_t sample) {
-    {
-        const std::lock_guard lock(mutex_);
-        tasks_.push_back({pixel, sample, {}, {}});
-    }
-    orders_.notify_one();
+    order([&] { tasks_.push_back({pixel, sample, {}, {}}); });
 }
 
 void LiveRender::save(const std::string& exr, const std::string& png) {
-    {
-        const std::lock_guard lock(mutex_);
-        tasks_.push_back({std::nullopt, 0, exr, png});
-    }
-    orders_.notify_one();
+    order([&] { tasks_.push_back({std::nullopt, 0, exr, png}); });
 }
 
 LiveNews LiveRender::news() {

@@ -59,6 +59,8 @@ class LiveRender {
     };
     struct Work;
 
+    template <typename Change>
+    void order(const Change& change);
     void run();
     void loop();
     [[nodiscard]] bool takeOrders(Work& work);

@@ -139,6 +139,7 @@ TEST_F(RenderRefusal, ToneCurvesThatThereAreNotOrThatNothingIsShownBy) {
     expectRefusal({"--png", "out.png", "--tonemap", "filmic"}, kWrongUsage,
                   "filmic not in {aces,agx,linear,neutral}");
     expectRefusal({"--tonemap", "agx"}, kWrongUsage, "--tonemap");
+    expectRefusal({"--exposure", "1", "-o", "out.exr"}, kWrongUsage, "--png");
     expectRefusal({"--tonemap", "linear", "-o", "out.exr"}, kWrongUsage, "--png");
     expectRefusal({"--tonemap", "agx", "-o", "out.exr", "--frames", "0:2"}, kWrongUsage, "--png");
 }

@@ -10,6 +10,7 @@
 #include "light/lights.h"
 #include "render/gpu_scene.h"
 #include "render/renderer.h"
+#include "render/scene_features.h"
 #include "shared/frame.h"
 #include "support/chi_square.h"
 #include "support/random_numbers.h"
@@ -94,7 +95,8 @@ class LightTest : public DeviceTest {
         gpu::Buffer uniforms(device(), "frame", sizeof frame, gpu::BufferUse::uniform);
         uniforms.upload(std::as_bytes(std::span(&frame, 1)));
         resources.set("Frame", uniforms);
-        KernelRunner runner(device(), test_kernels::find("light_test"), resources);
+        const gpu::SpecialisationConstant features{CONSTANT_FEATURES, sceneFeatures(scene, lights)};
+        KernelRunner runner(device(), test_kernels::find("light_test"), resources, {&features, 1});
         const uint32_t bothSides = 0;
         return runner.generate<Answer>(kSamples, bothSides);
     }

@@ -7,11 +7,11 @@
 #include <thread>
 
 #include <fcntl.h>
-#include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include "base/file.h"
+#include "support/spawn.h"
 
 namespace lavalight::test {
 namespace {
@@ -30,24 +30,14 @@ bool catches(pid_t process, int signal) {
     return false;
 }
 
-pid_t start(std::vector<std::string> words, const std::filesystem::path& folder,
+pid_t start(const std::vector<std::string>& words, const std::filesystem::path& folder,
             const std::filesystem::path& out, const std::filesystem::path& err) {
-    std::vector<char*> argv;
-    for (std::string& word : words)
-        argv.push_back(word.data());
-    argv.push_back(nullptr);
-    posix_spawn_file_actions_t actions;
-    ::posix_spawn_file_actions_init(&actions);
-    ::posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    ::posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, out.c_str(), O_WRONLY | O_CREAT, 0600);
-    ::posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, err.c_str(), O_WRONLY | O_CREAT, 0600);
-    ::posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
-    pid_t process = 0;
-    const int failure = ::posix_spawn(&process, argv.front(), &actions, nullptr, argv.data(), ::environ);
-    ::posix_spawn_file_actions_destroy(&actions);
-    if (failure != 0)
-        throw std::runtime_error("cannot run " LAVALIGHT_BINARY);
-    return process;
+    Spawn spawn;
+    spawn.open(STDIN_FILENO, "/dev/null", O_RDONLY);
+    spawn.open(STDOUT_FILENO, out, O_WRONLY | O_CREAT);
+    spawn.open(STDERR_FILENO, err, O_WRONLY | O_CREAT);
+    spawn.workIn(folder);
+    return spawn.start(words);
 }
 
 int timesIn(const std::string& text, const std::string& part) {

@@ -8,7 +8,6 @@
 #include <thread>
 
 #include <fcntl.h>
-#include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -18,6 +17,7 @@
 #include "base/file.h"
 #include "image/picture.h"
 #include "support/desktop/drag_source.h"
+#include "support/spawn.h"
 
 namespace lavalight::test {
 namespace {
@@ -25,24 +25,14 @@ namespace {
 constexpr std::chrono::milliseconds kTurn(20);
 constexpr std::chrono::seconds kPatience(30);
 
-// With /dev/null for its output; `passed`: a descriptor that it gets as number 3.
-pid_t spawn(std::vector<std::string> words, int passed = -1) {
-    std::vector<char*> argv;
-    for (std::string& word : words)
-        argv.push_back(word.data());
-    argv.push_back(nullptr);
-    posix_spawn_file_actions_t actions;
-    ::posix_spawn_file_actions_init(&actions);
-    for (const int stream : {STDOUT_FILENO, STDERR_FILENO})
-        ::posix_spawn_file_actions_addopen(&actions, stream, "/dev/null", O_WRONLY, 0);
+// Its output is nobody's; `passed`: a descriptor that it gets as number 3.
+pid_t startSilently(const std::vector<std::string>& words, int passed = -1) {
+    Spawn spawn;
+    spawn.open(STDOUT_FILENO, "/dev/null", O_WRONLY);
+    spawn.open(STDERR_FILENO, "/dev/null", O_WRONLY);
     if (passed >= 0)
-        ::posix_spawn_file_actions_adddup2(&actions, passed, 3);
-    pid_t process = 0;
-    const int failure = ::posix_spawnp(&process, argv.front(), &actions, nullptr, argv.data(), ::environ);
-    ::posix_spawn_file_actions_destroy(&actions);
-    if (failure != 0)
-        throw std::runtime_error("cannot run " + words.front());
-    return process;
+        spawn.pass(3, passed);
+    return spawn.start(words);
 }
 
 // The server takes a free number and tells it.
@@ -50,8 +40,8 @@ pid_t startServer(std::string& display) {
     std::array<int, 2> ends{};
     if (::pipe2(ends.data(), O_CLOEXEC) != 0)
         throw std::runtime_error("no pipe for Xvfb");
-    const pid_t server =
-        spawn({"Xvfb", "-displayfd", "3", "-screen", "0", "1280x800x24", "-nolisten", "tcp"}, ends[1]);
+    const pid_t server = startSilently(
+        {"Xvfb", "-displayfd", "3", "-screen", "0", "1280x800x24", "-nolisten", "tcp"}, ends[1]);
     ::close(ends[1]);
     std::string number;
     char digit = 0;
@@ -107,7 +97,7 @@ Desktop::Desktop() {
     std::string display;
     server_ = startServer(display);
     display_ = std::make_unique<EnvironmentVariable>("DISPLAY", display);
-    manager_ = spawn({"openbox", "--sm-disable"});
+    manager_ = startSilently({"openbox", "--sm-disable"});
     const auto deadline = std::chrono::steady_clock::now() + kPatience;
     while (!isManaged() && std::chrono::steady_clock::now() < deadline)
         std::this_thread::sleep_for(kTurn);

@@ -1,0 +1,33 @@
+// Starting programs beside a test.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <spawn.h>
+#include <sys/types.h>
+
+namespace lavalight::test {
+
+// What a program gets that is not its parent's.
+class Spawn {
+  public:
+    Spawn() { ::posix_spawn_file_actions_init(&actions_); }
+    ~Spawn() { ::posix_spawn_file_actions_destroy(&actions_); }
+    Spawn(const Spawn&) = delete;
+    Spawn& operator=(const Spawn&) = delete;
+
+    // The stream is this file, opened with these flags.
+    void open(int stream, const std::string& file, int flags);
+    // The stream is this descriptor of the parent's.
+    void pass(int stream, int descriptor);
+    void workIn(const std::string& folder);
+
+    // The first word is a path, or found in PATH. Throws std::runtime_error where it cannot be run.
+    [[nodiscard]] pid_t start(std::vector<std::string> words) const;
+
+  private:
+    posix_spawn_file_actions_t actions_;
+};
+
+} // namespace lavalight::test
