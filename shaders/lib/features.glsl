@@ -8,8 +8,7 @@
 
 layout(constant_id = CONSTANT_FEATURES) const uint kFeatures = kAllFeatures;
 
-bool sceneHas(uint feature) {
-    return (kFeatures & feature) != 0u;
-}
+// A macro: a constant already before calls are inlined, so that what it guards goes early.
+#define sceneHas(feature) ((kFeatures & (feature)) != 0u)
 
 #endif

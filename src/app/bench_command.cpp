@@ -210,8 +210,7 @@ BenchCommand::BenchCommand(CLI::App& app) : Command(app, "bench", "Measure speed
         ->check(CLI::Range(1000u, 4000000u));
     rays.add_option("--repeats", repeats_, "Runs of each side, alternating; their median counts")
         ->check(CLI::Range(1u, 1000u));
-    rays.add_option("--device", device_, "Index or part of the name of the Vulkan device")
-        ->type_name("NAME|INDEX");
+    deviceOptions_.emplace(rays);
     rays.add_flag("--json", json_, "Print JSON");
 }
 
@@ -220,9 +219,7 @@ int BenchCommand::run() {
     for (const std::string& warning : scene.warnings)
         spdlog::warn("{}", warning);
     limitThreads();
-    gpu::DeviceConfig config;
-    config.wanted = device_;
-    gpu::Device device(config);
+    gpu::Device device(deviceOptions_->config());
     if (device.limits().timestampNanoseconds == 0.0)
         throw Error(fmt::format("cannot bench on {}: it has no timestamps", device.description().name));
     const std::vector<Row> rows = RayBench(device, scene, repeats_).run(rays_);

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "app/command.h"
+#include "app/device_options.h"
 
 namespace lavalight {
 
@@ -16,7 +18,7 @@ class BenchCommand : public Command {
 
   private:
     std::string scene_;
-    std::string device_;
+    std::optional<DeviceOptions> deviceOptions_; // always
     uint32_t rays_ = 1000000; // of the camera; the others start where these hit
     uint32_t repeats_ = 5;
     bool json_ = false;

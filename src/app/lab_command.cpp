@@ -1,7 +1,6 @@
 #include "app/lab_command.h"
 
 #include <cstdio>
-#include <map>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -22,19 +21,7 @@ LabCommand::LabCommand(CLI::App& app)
                     "Samples of each estimate; 0: as many as the experiment likes")
         ->type_name("N");
     parser().add_option("--seed", options_.seed, "Another seed, other noise")->type_name("N");
-    parser()
-        .add_option("--device", device_.wanted, "Vulkan device by name or index (see lavalight devices)")
-        ->type_name("NAME|INDEX");
-    const std::map<std::string, gpu::RequiredDevice> kinds{{"any", gpu::RequiredDevice::any},
-                                                           {"cpu", gpu::RequiredDevice::cpu},
-                                                           {"gpu", gpu::RequiredDevice::gpu}};
-    parser()
-        .add_option("--require-device", device_.required, "Refuse to run on another kind of device")
-        ->type_name("any|cpu|gpu")
-        ->transform(CLI::CheckedTransformer(kinds, CLI::ignore_case).description(""))
-        ->default_str("any");
-    parser().add_flag("--validate", device_.validate,
-                      "Run the Vulkan validation layer; any message fails the run");
+    deviceOptions_.emplace(parser());
 }
 
 int LabCommand::run() {
@@ -43,7 +30,7 @@ int LabCommand::run() {
         return 0;
     }
     const Experiment& experiment = findExperiment(experiment_);
-    gpu::Device device(device_);
+    gpu::Device device(deviceOptions_->config());
     const std::vector<Table> tables = runExperiment(experiment, device, options_);
     device.requireNoValidationMessages();
     print(experiment, device, tables);

@@ -2,10 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "app/command.h"
-#include "gpu/device.h"
+#include "app/device_options.h"
 #include "lab/experiment.h"
 
 namespace lavalight {
@@ -23,7 +24,7 @@ class LabCommand : public Command {
 
     std::string experiment_ = "list";
     LabOptions options_;
-    gpu::DeviceConfig device_;
+    std::optional<DeviceOptions> deviceOptions_; // always
     bool json_ = false;
     bool csv_ = false;
 };

@@ -110,8 +110,8 @@ void requireResultsWritten() {
 }
 
 int run(int argc, char** argv) {
-    configureLog(LogLevel::normal);
     try {
+        configureLog(LogLevel::normal);
         const int exitCode = parseAndRun(argc, argv);
         requireResultsWritten();
         return exitCode;

@@ -122,17 +122,7 @@ void RenderOptions::declareRoulette(CLI::App& parser) {
 }
 
 void RenderOptions::declareDevice(CLI::App& parser) {
-    parser.add_option("--device", device_.wanted, "Vulkan device by name or index (see lavalight devices)")
-        ->type_name("NAME|INDEX");
-    const std::map<std::string, gpu::RequiredDevice> kinds{{"any", gpu::RequiredDevice::any},
-                                                           {"cpu", gpu::RequiredDevice::cpu},
-                                                           {"gpu", gpu::RequiredDevice::gpu}};
-    parser.add_option("--require-device", device_.required, "Refuse to run on another kind of device")
-        ->type_name("any|cpu|gpu")
-        ->transform(oneOf(kinds))
-        ->default_str("any");
-    parser.add_flag("--validate", device_.validate,
-                    "Run the Vulkan validation layer; any message fails the render");
+    device_.emplace(parser);
     addNamed(parser, "--kernels", settings_.kernels,
              "One kernel for whole paths, or one for each step; auto: by device");
     parser
@@ -195,7 +185,7 @@ void RenderOptions::takeRange(RenderSettings& settings) const {
 }
 
 gpu::DeviceConfig RenderOptions::device() const {
-    return device_;
+    return device_->config();
 }
 
 } // namespace lavalight

@@ -1,13 +1,14 @@
 // The options of a render, shared by every command that renders.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include <CLI/CLI.hpp>
 
 #include "app/camera_options.h"
+#include "app/device_options.h"
 #include "app/environment_options.h"
-#include "gpu/device.h"
 #include "render/settings.h"
 #include "scene/scene.h"
 
@@ -46,7 +47,7 @@ class RenderOptions {
     std::string clampIndirect_ = "off";
     EstimatorSettings estimator_; // values of the options; those not given are taken from the preset
     RenderSettings settings_;
-    gpu::DeviceConfig device_;
+    std::optional<DeviceOptions> device_; // always, once declared
 };
 
 } // namespace lavalight

@@ -7,6 +7,7 @@
 #include "app/environment_options.h"
 #include "base/error.h"
 #include "base/log.h"
+#include "gpu/vulkan_error.h"
 #include "view/viewer.h"
 
 namespace lavalight {
@@ -55,9 +56,9 @@ int ViewCommand::run() {
     const auto load = [](const SceneOrder& order) {
         return loadLit(order.source, order.import, order.settings);
     };
-    Viewer viewer({std::move(view), options_.device(), load, overlay,
-                   shaders_.isWatching() ? shaders_.folder() : std::string()});
-    viewer.run();
+    ViewerConfig config{std::move(view), options_.device(), load, overlay,
+                        shaders_.isWatching() ? shaders_.folder() : std::string()};
+    gpu::checked("draw", "the window", [&] { Viewer(std::move(config)).run(); });
     return 0;
 }
 

@@ -88,7 +88,7 @@ void Buffer::allocate() {
     memory_ = checked("allocate", name_, [&] {
         return vk::raii::DeviceMemory(device, vk::MemoryAllocateInfo(needs.size, type));
     });
-    buffer_.bindMemory(*memory_, 0);
+    checked("bind memory of", name_, [&] { buffer_.bindMemory(*memory_, 0); });
     using Memory = vk::MemoryPropertyFlagBits;
     const uint32_t mappable =
         device_->findMemoryType(1u << type, Memory::eHostVisible | Memory::eHostCoherent);

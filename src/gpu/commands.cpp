@@ -1,6 +1,10 @@
 #include "gpu/commands.h"
 
+#include <algorithm>
 #include <cassert>
+#include <cstdlib>
+
+#include <spdlog/spdlog.h>
 
 namespace lavalight::gpu {
 namespace {
@@ -30,8 +34,13 @@ Commands::Commands(Device& device) : device_(&device) {
 }
 
 void Commands::begin() {
-    buffers_.front().begin(vk::CommandBufferBeginInfo(vk::CommandBufferUsageFlagBits::eOneTimeSubmit));
+    checked("begin", "a command buffer", [&] {
+        for (size_t i = 0; i < marked_.size(); ++i)
+            marks_[i].reset();
+        buffers_.front().begin(vk::CommandBufferBeginInfo(vk::CommandBufferUsageFlagBits::eOneTimeSubmit));
+    });
     stamps_.clear();
+    marked_.clear();
     if (*queries_)
         recorded(buffers_).resetQueryPool(*queries_, 0, kMaxStamps);
     stamp("");
@@ -43,6 +52,14 @@ void Commands::stamp(std::string_view name) {
     recorded(buffers_).writeTimestamp(vk::PipelineStageFlagBits::eBottomOfPipe, *queries_,
                                       static_cast<uint32_t>(stamps_.size()));
     stamps_.emplace_back(name);
+}
+
+// Timestamps would say it too, but lavapipe waits for the submission where it is asked for one.
+void Commands::mark(const std::string& kernel) {
+    if (marks_.size() == marked_.size())
+        checked("create", "an event", [&] { marks_.emplace_back(device_->handle(), vk::EventCreateInfo()); });
+    marked_.push_back(kernel);
+    recorded(buffers_).setEvent(*marks_[marked_.size() - 1], vk::PipelineStageFlagBits::eComputeShader);
 }
 
 void Commands::prepareDispatch(const BoundKernel& kernel, std::span<const std::byte> pushConstants) {
@@ -73,6 +90,7 @@ void Commands::dispatch(const BoundKernel& kernel, uint32_t groups,
     prepareDispatch(kernel, pushConstants);
     recorded(buffers_).dispatch(groups, 1, 1);
     finishCommand();
+    mark(kernel.kernel().name());
     stamp(kernel.kernel().name());
 }
 
@@ -81,6 +99,7 @@ void Commands::dispatchIndirect(const BoundKernel& kernel, const Buffer& sizes, 
     prepareDispatch(kernel, pushConstants);
     recorded(buffers_).dispatchIndirect(sizes.handle(), offset);
     finishCommand();
+    mark(kernel.kernel().name());
     stamp(kernel.kernel().name());
 }
 
@@ -102,20 +121,56 @@ void Commands::submitAndWait() {
         const vk::CommandBuffer commands = recorded(buffers_);
         const vk::SubmitInfo submit({}, {}, commands);
         device_->queue().submit(submit, *fence_);
-        // No time limit: a pass on a CPU device may take minutes.
-        while (device_->handle().waitForFences(*fence_, VK_TRUE, UINT64_MAX) == vk::Result::eTimeout) {
-        }
+        if (!waitForFence())
+            endProcess();
         device_->handle().resetFences(*fence_);
     });
     collectTimes();
 }
 
+void Commands::waitUntilIdle() const {
+    try {
+        device_->queue().waitIdle();
+    } catch (const vk::SystemError&) { // a lost device is idle enough
+    }
+}
+
+// False: not in time.
+bool Commands::waitForFence() const {
+    constexpr double kNever = 1e9; // seconds, which as nanoseconds fit in 64 bits
+    const double seconds =
+        device_->kernelTimeout() > 0.0 ? std::min(device_->kernelTimeout(), kNever) : kNever;
+    const auto nanoseconds = static_cast<uint64_t>(seconds * 1e9);
+    try {
+        return device_->handle().waitForFences(*fence_, VK_TRUE, nanoseconds) == vk::Result::eSuccess;
+    } catch (const vk::SystemError&) {
+        waitUntilIdle(); // buffers die while this unwinds
+        throw;
+    }
+}
+
+void Commands::endProcess() const {
+    spdlog::error("kernel {} has not come back within {} s (--kernel-timeout)", unfinishedKernel(),
+                  device_->kernelTimeout());
+    spdlog::default_logger()->flush();
+    std::_Exit(1);
+}
+
+std::string Commands::unfinishedKernel() const {
+    for (size_t i = 0; i < marked_.size(); ++i)
+        if (marks_[i].getStatus() != vk::Result::eEventSet)
+            return marked_[i];
+    return "of a submission";
+}
+
 void Commands::collectTimes() {
     if (stamps_.size() < 2)
         return;
-    const auto [result, ticks] = queries_.getResults<uint64_t>(
-        0, static_cast<uint32_t>(stamps_.size()), stamps_.size() * sizeof(uint64_t), sizeof(uint64_t),
-        vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait);
+    const auto [result, ticks] = checked("read", "the kernels' times", [&] {
+        return queries_.getResults<uint64_t>(0, static_cast<uint32_t>(stamps_.size()),
+                                             stamps_.size() * sizeof(uint64_t), sizeof(uint64_t),
+                                             vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait);
+    });
     if (result != vk::Result::eSuccess)
         return;
     for (size_t i = 1; i < stamps_.size(); ++i) {

@@ -41,6 +41,9 @@ class Commands {
     void fill(const Buffer& buffer, uint32_t value);
     void copy(const Buffer& from, const Buffer& to, uint64_t bytes);
     // Ends recording, runs, and returns when all is done. Throws Error where the device fails or is lost.
+    // Where it takes longer than the device's kernelTimeout, the process ends at once with a message and exit
+    // code 1: what a device works on cannot be taken back from it, so that there is no way to go on, or to
+    // clean up.
     void submitAndWait();
 
     // Sums over all submissions so far; empty on a queue without timestamps.
@@ -50,12 +53,19 @@ class Commands {
     void prepareDispatch(const BoundKernel& kernel, std::span<const std::byte> pushConstants);
     void finishCommand();
     void stamp(std::string_view name);
+    void mark(const std::string& kernel);
+    void waitUntilIdle() const;
+    [[nodiscard]] bool waitForFence() const;
+    [[noreturn]] void endProcess() const;
+    [[nodiscard]] std::string unfinishedKernel() const;
     void collectTimes();
 
     Device* device_;
     vk::raii::CommandPool pool_ = nullptr;
     std::vector<vk::raii::CommandBuffer> buffers_; // exactly one
     vk::raii::Fence fence_ = nullptr;
+    std::vector<vk::raii::Event> marks_; // set when a kernel of the submission is done, in order
+    std::vector<std::string> marked_;    // its name
     vk::raii::QueryPool queries_ = nullptr;
     std::vector<std::string> stamps_; // the name whose work ends at timestamp i; empty: not a kernel
     KernelTimes times_;

@@ -49,7 +49,8 @@ std::vector<DeviceDescription> listDevices() {
     return describeAll(Instance(false).physicalDevices());
 }
 
-Device::Device(const DeviceConfig& config) : instance_(config.validate) {
+Device::Device(const DeviceConfig& config)
+    : instance_(config.validate), kernelTimeout_(config.kernelTimeout) {
     std::vector<vk::raii::PhysicalDevice> devices = instance_.physicalDevices();
     const std::vector<DeviceDescription> descriptions = describeAll(devices);
     const uint32_t chosen = chooseDevice(descriptions, config);

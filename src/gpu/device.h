@@ -20,6 +20,7 @@ struct DeviceConfig {
     std::string wanted; // index or part of a name; empty: the first usable, GPUs first
     RequiredDevice required = RequiredDevice::any; // refuse to run on anything else
     bool validate = false;                         // Khronos validation layer with synchronisation checks
+    double kernelTimeout = 300.0; // seconds that a submission may take (Commands::submitAndWait); 0: any
 };
 
 // One line of `lavalight devices`.
@@ -81,6 +82,7 @@ class Device {
     [[nodiscard]] std::vector<std::string> validationMessages() const {
         return instance_.validationMessages();
     }
+    [[nodiscard]] double kernelTimeout() const { return kernelTimeout_; } // seconds; 0: none
     void requireNoValidationMessages() const { instance_.requireNoValidationMessages(); }
 
     // Bytes of the buffers alive now, and the most there ever were.
@@ -103,6 +105,7 @@ class Device {
     vk::raii::Queue queue_ = nullptr;
     vk::PhysicalDeviceMemoryProperties memory_;
     uint32_t queueFamily_ = 0;
+    double kernelTimeout_;
     DeviceDescription description_;
     DeviceLimits limits_;
     uint64_t allocatedBytes_ = 0;

@@ -16,13 +16,6 @@
 
 namespace lavalight::gpu {
 
-// layout(constant_id = id) const uint/int/bool/float in the shader; floats as their bits.
-struct SpecialisationConstant {
-    uint32_t id = 0;
-    uint32_t value = 0;
-    bool operator==(const SpecialisationConstant&) const = default;
-};
-
 // A compiled pipeline. Immutable after construction.
 class Kernel {
   public:

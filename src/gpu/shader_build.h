@@ -27,6 +27,14 @@ struct KernelCode {
     std::vector<uint32_t> spirv;
     std::vector<KernelBinding> bindings; // ascending binding numbers
     uint32_t pushConstantBytes = 0;
+    bool isOptimised = false; // by the build (shader_optimiser.h)
+};
+
+// layout(constant_id = id) const uint/int/bool/float in the shader; floats as their bits.
+struct SpecialisationConstant {
+    uint32_t id = 0;
+    uint32_t value = 0;
+    bool operator==(const SpecialisationConstant&) const = default;
 };
 
 // The text of a shader file, and the name that the compiler's messages give it.

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "render/scene_features.h"
+#include "render/wave_budget.h"
 #include "shared/scene.h"
 
 namespace lavalight {
@@ -227,7 +228,12 @@ void Renderer::startAnew() {
 }
 
 StopReason Renderer::render(const KeepGoing& keepGoing) {
-    const auto start = std::chrono::steady_clock::now();
+    using Clock = std::chrono::steady_clock;
+    const auto secondsSince = [](Clock::time_point begin) {
+        return std::chrono::duration<double>(Clock::now() - begin).count();
+    };
+    const Clock::time_point start = Clock::now();
+    WaveBudget budget(settings_.waveSize, device_->description().isCpu);
     for (;;) {
         // Asked before a pass rather than after it: a render that is continued there has to ask as well.
         const bool isPassOver = position_.passSamples == 0;
@@ -236,9 +242,10 @@ StopReason Renderer::render(const KeepGoing& keepGoing) {
             return StopReason::targetError;
         if (isDone())
             return StopReason::samples;
-        step(settings_.waveSize);
-        const double seconds =
-            std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        const Clock::time_point waveStart = Clock::now();
+        step(budget.slots());
+        budget.took(secondsSince(waveStart));
+        const double seconds = secondsSince(start);
         if (!keepGoing(isTimed() ? std::max(fractionDone(), seconds / settings_.seconds) : fractionDone()))
             return StopReason::interrupted;
         if (isTimed() && seconds >= settings_.seconds)

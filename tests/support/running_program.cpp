@@ -104,9 +104,13 @@ ProgramResult RunningProgram::kill() {
     return endWith(SIGKILL);
 }
 
-ProgramResult RunningProgram::endWith(int signal) {
+void RunningProgram::send(int signal) {
     if (!hasEnded())
         ::kill(process_, signal);
+}
+
+ProgramResult RunningProgram::endWith(int signal) {
+    send(signal);
     return wait();
 }
 

@@ -32,6 +32,7 @@ class RunningProgram {
     [[nodiscard]] ProgramResult wait();
     // Sends SIGINT as soon as the program catches it, and waits for the end.
     [[nodiscard]] ProgramResult interrupt();
+    void send(int signal);
     // Ends it at once, unless it has ended: SIGKILL.
     [[nodiscard]] ProgramResult kill();
 

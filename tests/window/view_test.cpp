@@ -10,6 +10,7 @@
 #include "base/file.h"
 #include "image/exr.h"
 #include "support/desktop/desktop.h"
+#include "support/faults/faults.h"
 #include "support/run_program.h"
 #include "support/running_program.h"
 #include "support/temporary_folder.h"
@@ -209,13 +210,34 @@ TEST_F(View, IsClosedByItsFrame) {
     EXPECT_EQ(program_->wait().exitCode, 0);
 }
 
+// Ends by itself, with that in its only line.
+void expectRefusal(const std::string& words) {
+    const TemporaryFolder folder;
+    const ProgramResult result = runLavalight({"view", "cornell-box", "--size", "120x90"}, folder.path());
+    EXPECT_EQ(result.exitCode, 1);
+    EXPECT_NE(result.err.find(words), std::string::npos) << result.err;
+    EXPECT_EQ(result.err.find("unexpected"), std::string::npos) << result.err;
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+}
+
 TEST(ViewRefusals, WithoutADesktopSaysSoInALine) {
     const EnvironmentVariable nowhere("DISPLAY", ":4711");
-    const TemporaryFolder folder;
-    const ProgramResult result = runLavalight({"view", "cornell-box"}, folder.path());
-    EXPECT_EQ(result.exitCode, 1);
-    EXPECT_NE(result.err.find("cannot open a window"), std::string::npos) << result.err;
-    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+    expectRefusal("cannot open a window");
+}
+
+TEST(ViewRefusals, WithoutADeviceThatPresentsSaysSoInALine) {
+    const Desktop desktop;
+    const VulkanFault hidden("hidden");
+    expectRefusal("cannot draw on this window: no Vulkan device shows pictures on it");
+}
+
+TEST(ViewRefusals, OfALostDeviceIsOneLine) {
+    const Desktop desktop;
+    for (const int call : {3, 20, 60, 120, 240, 360, 480, 700, 1000}) {
+        SCOPED_TRACE(call);
+        const VulkanFault lost(std::to_string(call) + " -4");
+        expectRefusal("DeviceLost");
+    }
 }
 
 TEST(ViewRefusals, RendersUntilItIsClosed) {

@@ -1,0 +1,24 @@
+// The options that choose a Vulkan device, shared by every command that uses one.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include "gpu/device.h"
+
+namespace lavalight {
+
+// Declares options on a parser. Must outlive the parsing; the parser points into it.
+class DeviceOptions {
+  public:
+    explicit DeviceOptions(CLI::App& parser);
+    DeviceOptions(const DeviceOptions&) = delete;
+    DeviceOptions& operator=(const DeviceOptions&) = delete;
+
+    // Throws UsageError for a time that is none.
+    [[nodiscard]] gpu::DeviceConfig config() const;
+
+  private:
+    gpu::DeviceConfig config_;
+};
+
+} // namespace lavalight

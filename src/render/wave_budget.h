@@ -1,0 +1,34 @@
+// How many paths a wave may have, so that none keeps a device longer than its watchdog allows.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+namespace lavalight {
+
+// Systems reset a GPU that works on one submission for too long: Windows after two seconds, Linux' amdgpu
+// after ten. A CPU has no such watchdog, but Ctrl-C waits for the end of a wave.
+class WaveBudget {
+  public:
+    static constexpr double kLongest = 1.0; // seconds
+    static constexpr uint32_t kFewest = 4096;
+
+    // Never more than `most` slots. How fast a GPU is has to be seen: its first wave is a small one.
+    WaveBudget(uint32_t most, bool isCpu) : most_(most), slots_(isCpu ? most : std::min(most, kFewest)) {}
+
+    [[nodiscard]] uint32_t slots() const { return slots_; }
+
+    // What a wave of so many slots took. A wave of twice as many may take twice as long.
+    void took(double seconds) {
+        if (seconds > kLongest)
+            slots_ = std::max(slots_ / 2, std::min(most_, kFewest));
+        else if (seconds < kLongest / 4)
+            slots_ = std::min(most_, slots_ > most_ / 2 ? most_ : 2 * slots_);
+    }
+
+  private:
+    uint32_t most_;
+    uint32_t slots_;
+};
+
+} // namespace lavalight
