@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "accel/embree_oracle.h"
+#include "app/scene_options.h"
 #include "base/error.h"
 #include "base/log.h"
 #include "render/gpu_scene.h"
@@ -213,10 +214,11 @@ BenchCommand::BenchCommand(CLI::App& app) : Command(app, "bench", "Measure speed
     rays.add_option("--device", device_, "Index or part of the name of the Vulkan device")
         ->type_name("NAME|INDEX");
     rays.add_flag("--json", json_, "Print JSON");
+    addAllowExternal(rays, import_);
 }
 
 int BenchCommand::run() {
-    const Scene scene = loadScene(scene_);
+    const Scene scene = loadScene(scene_, import_);
     for (const std::string& warning : scene.warnings)
         spdlog::warn("{}", warning);
     limitThreads();

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "app/command.h"
+#include "scene/import_options.h"
 
 namespace lavalight {
 
@@ -16,6 +17,7 @@ class BenchCommand : public Command {
 
   private:
     std::string scene_;
+    ImportOptions import_;
     std::string device_;
     uint32_t rays_ = 1000000; // of the camera; the others start where these hit
     uint32_t repeats_ = 5;
