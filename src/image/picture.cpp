@@ -1,6 +1,7 @@
 // Pictures by stb_image and libwebp.
 #include "image/picture.h"
 
+#include <algorithm>
 #include <limits>
 #include <memory>
 
@@ -9,11 +10,17 @@
 #include <webp/decode.h>
 
 #include "base/error.h"
+#include "image/jpeg_check.h"
 
 namespace lavalight {
 namespace {
 
 constexpr int kChannels = 4;
+
+// A stream of deflate stands for at most 1032 times its bytes: 258 a match, whose two codes take a bit each.
+constexpr uint64_t kMostDeflateExpansion = 1032;
+// Every block of 8 x 8 takes one bit of a JPEG, if only in the first scan of a progressive one.
+constexpr uint64_t kMostJpegTexelsPerByte = 8 * 64;
 
 void requireFitting(int64_t width, int64_t height) {
     if (width < 1 || height < 1)
@@ -21,6 +28,21 @@ void requireFitting(int64_t width, int64_t height) {
     if (static_cast<uint64_t>(width) > kMostPictureTexels / static_cast<uint64_t>(height))
         throw Error(fmt::format("it has {} x {} texels, at most {} are supported: scale it down", width,
                                 height, kMostPictureTexels));
+}
+
+// Small files of a huge picture are damaged, or made to fill the memory. (WebP has no such bound: it may give
+// one colour to all texels in no bits at all.)
+void requirePlausible(int64_t width, int64_t height, size_t bytes, uint64_t mostTexelsPerByte) {
+    if (static_cast<uint64_t>(width * height) / mostTexelsPerByte > bytes)
+        throw Error(fmt::format("it is damaged: {} x {} texels cannot be in {} bytes", width, height, bytes));
+}
+
+bool isPng(std::string_view bytes) {
+    return bytes.starts_with("\x89PNG\r\n\x1A\n");
+}
+
+bool isJpeg(std::string_view bytes) {
+    return bytes.starts_with("\xFF\xD8");
 }
 
 // RIFF, four bytes of length, WEBP.
@@ -45,6 +67,17 @@ Picture decodeWebp(std::string_view bytes) {
     return picture;
 }
 
+// By the first chunk: bits of a channel and the kind of colour stand in bytes 24 and 25.
+uint64_t mostPngTexelsPerByte(std::string_view bytes) {
+    constexpr std::string_view kHeader = "IHDR";
+    if (bytes.size() < 26 || bytes.substr(12, 4) != kHeader)
+        return 8 * kMostDeflateExpansion;
+    const auto bits = static_cast<uint8_t>(bytes[24]);
+    const auto color = static_cast<uint8_t>(bytes[25]);
+    const uint64_t channels = color == 2 ? 3 : color == 4 ? 2 : color == 6 ? 4 : 1;
+    return std::max<uint64_t>(8 * kMostDeflateExpansion / std::max<uint64_t>(bits * channels, 1), 1);
+}
+
 struct StbDeleter {
     void operator()(void* texels) const { stbi_image_free(texels); }
 };
@@ -57,9 +90,13 @@ Picture decodeByStb(std::string_view bytes) {
     int width = 0;
     int height = 0;
     int channels = 0;
+    if (isJpeg(bytes))
+        requireSoundJpeg(bytes);
     if (stbi_info_from_memory(data, length, &width, &height, &channels) == 0)
-        throw Error(fmt::format("it is no PNG, JPEG or WebP file ({})", stbi_failure_reason()));
+        throw Error(fmt::format("it is damaged ({})", stbi_failure_reason()));
     requireFitting(width, height);
+    requirePlausible(width, height, bytes.size(),
+                     isJpeg(bytes) ? kMostJpegTexelsPerByte : mostPngTexelsPerByte(bytes));
     Picture picture;
     picture.is16Bit = stbi_is_16_bit_from_memory(data, length) != 0;
     const std::unique_ptr<void, StbDeleter> texels(
@@ -80,7 +117,11 @@ Picture decodeByStb(std::string_view bytes) {
 } // namespace
 
 Picture decodePicture(std::string_view bytes) {
-    return isWebp(bytes) ? decodeWebp(bytes) : decodeByStb(bytes);
+    if (isWebp(bytes))
+        return decodeWebp(bytes);
+    if (isPng(bytes) || isJpeg(bytes)) // stb reads more, which glTF does not have and nobody has tested
+        return decodeByStb(bytes);
+    throw Error("it is no PNG, JPEG or WebP file");
 }
 
 } // namespace lavalight
