@@ -50,23 +50,6 @@ bool isWebp(std::string_view bytes) {
     return bytes.size() >= 12 && bytes.starts_with("RIFF") && bytes.substr(8, 4) == "WEBP";
 }
 
-Picture decodeWebp(std::string_view bytes) {
-    const auto* data = reinterpret_cast<const uint8_t*>(bytes.data());
-    Picture picture;
-    int width = 0;
-    int height = 0;
-    if (WebPGetInfo(data, bytes.size(), &width, &height) == 0)
-        throw Error("it is a damaged WebP file");
-    requireFitting(width, height);
-    picture.width = static_cast<uint32_t>(width);
-    picture.height = static_cast<uint32_t>(height);
-    picture.bytes.resize(size_t{picture.width} * picture.height * kChannels);
-    if (WebPDecodeRGBAInto(data, bytes.size(), picture.bytes.data(), picture.bytes.size(),
-                           width * kChannels) == nullptr)
-        throw Error("it is a damaged WebP file");
-    return picture;
-}
-
 // By the first chunk: bits of a channel and the kind of colour stand in bytes 24 and 25.
 uint64_t mostPngTexelsPerByte(std::string_view bytes) {
     constexpr std::string_view kHeader = "IHDR";
@@ -78,50 +61,82 @@ uint64_t mostPngTexelsPerByte(std::string_view bytes) {
     return std::max<uint64_t>(8 * kMostDeflateExpansion / std::max<uint64_t>(bits * channels, 1), 1);
 }
 
-struct StbDeleter {
-    void operator()(void* texels) const { stbi_image_free(texels); }
-};
+PictureSize measureWebp(std::string_view bytes) {
+    int width = 0;
+    int height = 0;
+    if (WebPGetInfo(reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size(), &width, &height) == 0)
+        throw Error("it is a damaged WebP file");
+    requireFitting(width, height);
+    return {static_cast<uint32_t>(width), static_cast<uint32_t>(height), false};
+}
 
-Picture decodeByStb(std::string_view bytes) {
+Picture decodeWebp(std::string_view bytes) {
+    const PictureSize size = measureWebp(bytes);
+    Picture picture{{}, size.width, size.height, false, std::vector<uint8_t>(size.bytes())};
+    const auto* data = reinterpret_cast<const uint8_t*>(bytes.data());
+    if (WebPDecodeRGBAInto(data, bytes.size(), picture.bytes.data(), picture.bytes.size(),
+                           static_cast<int>(size.width) * kChannels) == nullptr)
+        throw Error("it is a damaged WebP file");
+    return picture;
+}
+
+PictureSize measureByStb(std::string_view bytes) {
     if (bytes.size() > static_cast<size_t>(std::numeric_limits<int>::max()))
         throw Error("it is larger than 2 GiB");
+    if (isJpeg(bytes))
+        requireSoundJpeg(bytes);
     const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
     const int length = static_cast<int>(bytes.size());
     int width = 0;
     int height = 0;
     int channels = 0;
-    if (isJpeg(bytes))
-        requireSoundJpeg(bytes);
     if (stbi_info_from_memory(data, length, &width, &height, &channels) == 0)
         throw Error(fmt::format("it is damaged ({})", stbi_failure_reason()));
     requireFitting(width, height);
     requirePlausible(width, height, bytes.size(),
                      isJpeg(bytes) ? kMostJpegTexelsPerByte : mostPngTexelsPerByte(bytes));
-    Picture picture;
-    picture.is16Bit = stbi_is_16_bit_from_memory(data, length) != 0;
+    return {static_cast<uint32_t>(width), static_cast<uint32_t>(height),
+            stbi_is_16_bit_from_memory(data, length) != 0};
+}
+
+struct StbDeleter {
+    void operator()(void* texels) const { stbi_image_free(texels); }
+};
+
+Picture decodeByStb(std::string_view bytes) {
+    const PictureSize size = measureByStb(bytes);
+    const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
+    const int length = static_cast<int>(bytes.size());
+    int width = 0;
+    int height = 0;
+    int channels = 0;
     const std::unique_ptr<void, StbDeleter> texels(
-        picture.is16Bit
+        size.is16Bit
             ? static_cast<void*>(
                   stbi_load_16_from_memory(data, length, &width, &height, &channels, kChannels))
             : static_cast<void*>(stbi_load_from_memory(data, length, &width, &height, &channels, kChannels)));
     if (!texels)
         throw Error(fmt::format("it is damaged ({})", stbi_failure_reason()));
-    picture.width = static_cast<uint32_t>(width);
-    picture.height = static_cast<uint32_t>(height);
-    const size_t size = size_t{picture.width} * picture.height * kChannels * (picture.is16Bit ? 2 : 1);
     const auto* first = static_cast<const uint8_t*>(texels.get());
-    picture.bytes.assign(first, first + size);
-    return picture;
+    return {{}, size.width, size.height, size.is16Bit, std::vector<uint8_t>(first, first + size.bytes())};
+}
+
+// stb reads more formats, which glTF does not have and nobody has tested.
+void requireKnown(std::string_view bytes) {
+    if (!isWebp(bytes) && !isPng(bytes) && !isJpeg(bytes))
+        throw Error("it is no PNG, JPEG or WebP file");
 }
 
 } // namespace
 
+PictureSize measurePicture(std::string_view bytes) {
+    requireKnown(bytes);
+    return isWebp(bytes) ? measureWebp(bytes) : measureByStb(bytes);
+}
+
 Picture decodePicture(std::string_view bytes) {
-    if (isWebp(bytes))
-        return decodeWebp(bytes);
-    if (isPng(bytes) || isJpeg(bytes)) // stb reads more, which glTF does not have and nobody has tested
-        return decodeByStb(bytes);
-    throw Error("it is no PNG, JPEG or WebP file");
+    requireKnown(bytes);
+    return isWebp(bytes) ? decodeWebp(bytes) : decodeByStb(bytes);
 }
 
 } // namespace lavalight

@@ -5,53 +5,18 @@
 #include <array>
 #include <cstdint>
 #include <memory>
-#include <optional>
 
-#include <draco/compression/decode.h>
-#include <draco/compression/point_cloud/point_cloud_decoder.h>
-#include <draco/core/varint_decoding.h>
-#include <draco/metadata/metadata_decoder.h>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "scene/gltf_draco_stream.h"
 #include "scene/gltf_notes.h"
+#include "scene/scene.h"
 
 namespace lavalight {
 namespace {
 
 using Json = nlohmann::json;
-
-// Draco allocates what the head of a stream states before it reads on. Real streams hold about a triangle a
-// byte; a plane of millions may hold a few dozen.
-constexpr uint64_t kMostTrianglesPerByte = 256;
-
-// The number of triangles that the head of a stream states; Draco reads the same bytes again. Nothing where
-// the head is not one of a mesh of bitstream 2.2, the one that the extension is written for.
-std::optional<uint64_t> statedTriangles(std::string_view bytes) {
-    draco::DecoderBuffer buffer;
-    buffer.Init(bytes.data(), bytes.size());
-    draco::DracoHeader header;
-    if (!draco::PointCloudDecoder::DecodeHeader(&buffer, &header).ok() ||
-        header.encoder_type != draco::TRIANGULAR_MESH || header.version_major != 2 ||
-        header.version_minor != 2)
-        return std::nullopt;
-    buffer.set_bitstream_version(DRACO_BITSTREAM_VERSION(2, 2));
-    if ((header.flags & METADATA_FLAG_MASK) != 0) {
-        draco::GeometryMetadata metadata;
-        if (!draco::MetadataDecoder().DecodeGeometryMetadata(&buffer, &metadata))
-            return std::nullopt;
-    }
-    uint32_t triangles = 0;
-    if (header.encoder_method == draco::MESH_EDGEBREAKER_ENCODING) {
-        uint8_t traversal = 0;
-        uint32_t vertices = 0;
-        if (!buffer.Decode(&traversal) || !draco::DecodeVarint(&vertices, &buffer))
-            return std::nullopt;
-    }
-    if (!draco::DecodeVarint(&triangles, &buffer))
-        return std::nullopt;
-    return triangles;
-}
 
 template <class T>
 void append(std::string& bytes, const T& value) {
@@ -104,10 +69,11 @@ class PrimitiveDecoder {
                      const std::string& source)
         : json_(json), buffers_(buffers), name_(std::move(name)), source_(source) {}
 
-    void run(Json& primitive) {
+    // `triangles` counts those of all primitives.
+    void run(Json& primitive, uint64_t& triangles) {
         const Json extension = primitive["extensions"]["KHR_draco_mesh_compression"];
         const std::unique_ptr<draco::Mesh> mesh =
-            decode(bytesOfView(extension.at("bufferView").get<size_t>()));
+            decode(bytesOfView(extension.at("bufferView").get<size_t>()), triangles);
         view_ = json_["bufferViews"].size();
         for (const auto& [attribute, id] : extension.at("attributes").items()) {
             if (primitive["attributes"].contains(attribute))
@@ -131,19 +97,16 @@ class PrimitiveDecoder {
         return bytesOf(buffers_, range, describe("buffer view", index, ""), source_);
     }
 
-    [[nodiscard]] std::unique_ptr<draco::Mesh> decode(std::string_view stream) const {
-        const std::optional<uint64_t> triangles = statedTriangles(stream);
-        if (!triangles)
-            fail("is damaged: its stream does not begin as a mesh of Draco's bitstream 2.2");
-        if (*triangles > kMostTrianglesPerByte * stream.size())
-            fail(fmt::format("is damaged: its stream states {} triangles in {} bytes", *triangles,
-                             stream.size()));
-        draco::DecoderBuffer buffer;
-        buffer.Init(stream.data(), stream.size());
-        auto decoded = draco::Decoder().DecodeMeshFromBuffer(&buffer);
-        if (!decoded.ok())
-            fail(fmt::format("cannot be decoded: {}", decoded.status().error_msg_string()));
-        return std::move(decoded).value();
+    [[nodiscard]] std::unique_ptr<draco::Mesh> decode(std::string_view stream, uint64_t& triangles) const {
+        try {
+            triangles += statedTriangles(stream);
+            if (triangles > kMostTriangles)
+                throw Error(fmt::format("brings the file's triangles to {}, at most {} are supported",
+                                        triangles, kMostTriangles));
+            return decodeDracoStream(stream);
+        } catch (const Error& error) {
+            fail(error.what());
+        }
     }
 
     // Replaces the accessor's number by that of a new one with the decoded values: others may use the old
@@ -194,13 +157,14 @@ void decodeDraco(Json& json, std::vector<GltfBuffer>& buffers, const std::string
     if (!json.contains("meshes") || !json.contains("bufferViews") || !json.contains("accessors"))
         return;
     Json& meshes = json["meshes"];
+    uint64_t triangles = 0; // several primitives may name one stream
     for (size_t i = 0; i < meshes.size(); ++i) {
         for (Json& primitive : meshes[i]["primitives"]) {
             if (!primitive.contains("extensions") ||
                 !primitive["extensions"].contains("KHR_draco_mesh_compression"))
                 continue;
             const std::string name = describe("mesh", i, meshes[i].value("name", ""));
-            PrimitiveDecoder(json, buffers, name, source).run(primitive);
+            PrimitiveDecoder(json, buffers, name, source).run(primitive, triangles);
         }
     }
 }
