@@ -61,6 +61,13 @@ uint64_t groupMemory() {
     return *limit - std::min(numberIn(folder + "/memory.stat", "anon ").value_or(0), *limit);
 }
 
+std::string textOf(uint64_t bytes) {
+    constexpr double kMebibyte = 1024.0 * 1024.0;
+    const double mebibytes = static_cast<double>(bytes) / kMebibyte;
+    return mebibytes < 1024.0 ? fmt::format("{:.0f} MiB", mebibytes)
+                              : fmt::format("{:.1f} GiB", mebibytes / 1024.0);
+}
+
 } // namespace
 
 uint64_t availableMemory() {
@@ -69,14 +76,12 @@ uint64_t availableMemory() {
 
 std::string memoryShortage(uint64_t bytes) {
     constexpr uint64_t kAlways = 1u << 24; // not worth the asking
-    constexpr double kGibibyte = 1024.0 * 1024.0 * 1024.0;
     if (bytes <= kAlways)
         return {};
     const uint64_t available = availableMemory();
     if (bytes <= available)
         return {};
-    return fmt::format("take {:.1f} GiB of memory, {:.1f} GiB are available",
-                       static_cast<double>(bytes) / kGibibyte, static_cast<double>(available) / kGibibyte);
+    return fmt::format("take {} of memory, {} are available", textOf(bytes), textOf(available));
 }
 
 } // namespace lavalight

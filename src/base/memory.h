@@ -11,7 +11,7 @@ namespace lavalight {
 // the process and of its control group leave, whichever is least.
 [[nodiscard]] uint64_t availableMemory();
 
-// Nothing where `bytes` are available, else the end of a sentence: "take 12.0 GiB of memory, 3.5 GiB are
+// Nothing where `bytes` are available, else the end of a sentence: "take 12.0 GiB of memory, 350 MiB are
 // available".
 [[nodiscard]] std::string memoryShortage(uint64_t bytes);
 

@@ -26,6 +26,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/log.h"
+#include "image/exr_header_check.h"
 
 namespace lavalight {
 namespace {
@@ -295,6 +296,7 @@ auto readWith(const std::filesystem::path& path, const Read& read) {
     useAllCores();
     try {
         requireSaneHeader(path);
+        requireSaneAttributes(path);
         Imf::InputFile file(path.c_str());
         return read(file);
     } catch (const std::bad_alloc&) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 #include <memory>
+#include <optional>
 
 #include <fmt/format.h>
 #include <stb_image.h>
@@ -50,15 +51,25 @@ bool isWebp(std::string_view bytes) {
     return bytes.size() >= 12 && bytes.starts_with("RIFF") && bytes.substr(8, 4) == "WEBP";
 }
 
-// By the first chunk: bits of a channel and the kind of colour stand in bytes 24 and 25.
-uint64_t mostPngTexelsPerByte(std::string_view bytes) {
-    constexpr std::string_view kHeader = "IHDR";
-    if (bytes.size() < 26 || bytes.substr(12, 4) != kHeader)
-        return 8 * kMostDeflateExpansion;
-    const auto bits = static_cast<uint8_t>(bytes[24]);
-    const auto color = static_cast<uint8_t>(bytes[25]);
+// What the first chunk says, which starts at byte 8: length, "IHDR", width, height, bits of a channel, kind
+// of colour.
+struct PngHeader {
+    uint32_t width = 0;
+    uint32_t height = 0;
+    uint64_t texelsPerByte = 1; // at most, of the whole file
+};
+
+std::optional<PngHeader> headerOfPng(std::string_view bytes) {
+    if (!isPng(bytes) || bytes.size() < 26 || bytes.substr(12, 4) != "IHDR")
+        return std::nullopt;
+    const auto at = [&](size_t i) { return static_cast<uint8_t>(bytes[i]); };
+    const auto word = [&](size_t i) {
+        return uint32_t{at(i)} << 24u | uint32_t{at(i + 1)} << 16u | uint32_t{at(i + 2)} << 8u | at(i + 3);
+    };
+    const uint8_t color = at(25);
     const uint64_t channels = color == 2 ? 3 : color == 4 ? 2 : color == 6 ? 4 : 1;
-    return std::max<uint64_t>(8 * kMostDeflateExpansion / std::max<uint64_t>(bits * channels, 1), 1);
+    const uint64_t bits = std::max<uint64_t>(at(24) * channels, 1);
+    return PngHeader{word(16), word(20), std::max<uint64_t>(8 * kMostDeflateExpansion / bits, 1)};
 }
 
 PictureSize measureWebp(std::string_view bytes) {
@@ -85,6 +96,9 @@ PictureSize measureByStb(std::string_view bytes) {
         throw Error("it is larger than 2 GiB");
     if (isJpeg(bytes))
         requireSoundJpeg(bytes);
+    const std::optional<PngHeader> png = headerOfPng(bytes);
+    if (png) // stb calls what is too large for it unknown
+        requireFitting(png->width, png->height);
     const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
     const int length = static_cast<int>(bytes.size());
     int width = 0;
@@ -93,8 +107,7 @@ PictureSize measureByStb(std::string_view bytes) {
     if (stbi_info_from_memory(data, length, &width, &height, &channels) == 0)
         throw Error(fmt::format("it is damaged ({})", stbi_failure_reason()));
     requireFitting(width, height);
-    requirePlausible(width, height, bytes.size(),
-                     isJpeg(bytes) ? kMostJpegTexelsPerByte : mostPngTexelsPerByte(bytes));
+    requirePlausible(width, height, bytes.size(), png ? png->texelsPerByte : kMostJpegTexelsPerByte);
     return {static_cast<uint32_t>(width), static_cast<uint32_t>(height),
             stbi_is_16_bit_from_memory(data, length) != 0};
 }

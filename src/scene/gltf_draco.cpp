@@ -4,7 +4,7 @@
 
 #include <array>
 #include <cstdint>
-#include <memory>
+#include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -64,16 +64,32 @@ int componentsOf(const Json& accessor) {
 
 // Decodes one primitive; the JSON and the buffers outlive it.
 class PrimitiveDecoder {
+    [[noreturn]] void fail(const std::string& text) const {
+        throw gltfError(source_, fmt::format("{} (KHR_draco_mesh_compression) {}", name_, text));
+    }
+
+    template <class Act>
+    auto naming(const Act& act) const {
+        try {
+            return act();
+        } catch (const Error& error) {
+            fail(error.what());
+        }
+    }
+
   public:
     PrimitiveDecoder(Json& json, std::vector<GltfBuffer>& buffers, std::string name,
                      const std::string& source)
         : json_(json), buffers_(buffers), name_(std::move(name)), source_(source) {}
 
-    // `triangles` counts those of all primitives.
-    void run(Json& primitive, uint64_t& triangles) {
-        const Json extension = primitive["extensions"]["KHR_draco_mesh_compression"];
-        const std::unique_ptr<draco::Mesh> mesh =
-            decode(bytesOfView(extension.at("bufferView").get<size_t>()), triangles);
+    // That the stream states, before any is decoded.
+    [[nodiscard]] uint64_t triangles(const Json& primitive) const {
+        return naming([&] { return statedTriangles(streamOf(primitive)); });
+    }
+
+    void run(Json& primitive) {
+        const Json extension = extensionOf(primitive);
+        const auto mesh = naming([&] { return decodeDracoStream(streamOf(primitive)); });
         view_ = json_["bufferViews"].size();
         for (const auto& [attribute, id] : extension.at("attributes").items()) {
             if (primitive["attributes"].contains(attribute))
@@ -86,27 +102,16 @@ class PrimitiveDecoder {
     }
 
   private:
-    [[noreturn]] void fail(const std::string& text) const {
-        throw gltfError(source_, fmt::format("{} (KHR_draco_mesh_compression) {}", name_, text));
+    [[nodiscard]] static const Json& extensionOf(const Json& primitive) {
+        return primitive.at("extensions").at("KHR_draco_mesh_compression");
     }
 
-    [[nodiscard]] std::string_view bytesOfView(size_t index) const {
+    [[nodiscard]] std::string_view streamOf(const Json& primitive) const {
+        const auto index = extensionOf(primitive).at("bufferView").get<size_t>();
         const Json& view = json_["bufferViews"][index];
         const BufferRange range{view.at("buffer").get<size_t>(), view.value("byteOffset", size_t{0}),
                                 view.at("byteLength").get<size_t>()};
         return bytesOf(buffers_, range, describe("buffer view", index, ""), source_);
-    }
-
-    [[nodiscard]] std::unique_ptr<draco::Mesh> decode(std::string_view stream, uint64_t& triangles) const {
-        try {
-            triangles += statedTriangles(stream);
-            if (triangles > kMostTriangles)
-                throw Error(fmt::format("brings the file's triangles to {}, at most {} are supported",
-                                        triangles, kMostTriangles));
-            return decodeDracoStream(stream);
-        } catch (const Error& error) {
-            fail(error.what());
-        }
     }
 
     // Replaces the accessor's number by that of a new one with the decoded values: others may use the old
@@ -156,17 +161,26 @@ class PrimitiveDecoder {
 void decodeDraco(Json& json, std::vector<GltfBuffer>& buffers, const std::string& source) {
     if (!json.contains("meshes") || !json.contains("bufferViews") || !json.contains("accessors"))
         return;
-    Json& meshes = json["meshes"];
+    std::vector<std::pair<PrimitiveDecoder, Json*>> compressed;
     uint64_t triangles = 0; // several primitives may name one stream
+    Json& meshes = json["meshes"];
     for (size_t i = 0; i < meshes.size(); ++i) {
         for (Json& primitive : meshes[i]["primitives"]) {
             if (!primitive.contains("extensions") ||
                 !primitive["extensions"].contains("KHR_draco_mesh_compression"))
                 continue;
             const std::string name = describe("mesh", i, meshes[i].value("name", ""));
-            PrimitiveDecoder(json, buffers, name, source).run(primitive, triangles);
+            compressed.emplace_back(PrimitiveDecoder(json, buffers, name, source), &primitive);
+            triangles += compressed.back().first.triangles(primitive);
         }
     }
+    if (triangles > kMostTriangles)
+        throw gltfError(source,
+                        fmt::format("its streams of KHR_draco_mesh_compression state {} triangles, at "
+                                    "most {} are supported",
+                                    triangles, kMostTriangles));
+    for (auto& [decoder, primitive] : compressed)
+        decoder.run(*primitive);
 }
 
 } // namespace lavalight

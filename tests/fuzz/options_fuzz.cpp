@@ -14,6 +14,7 @@
 #include "app/scene_options.h"
 #include "app/tone_options.h"
 #include "base/error.h"
+#include "render/renderer.h"
 #include "render/sample_ranges.h"
 
 namespace {

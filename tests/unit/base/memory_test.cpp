@@ -25,7 +25,7 @@ TEST(Memory, LimitOfTheProcessCounts) {
         GTEST_SKIP() << "memory cannot be limited here";
     const MemoryLimit limit(kGibibyte / 2);
     EXPECT_LE(availableMemory(), kGibibyte / 2);
-    EXPECT_EQ(memoryShortage(2 * kGibibyte), "take 2.0 GiB of memory, 0.5 GiB are available");
+    EXPECT_EQ(memoryShortage(2 * kGibibyte), "take 2.0 GiB of memory, 512 MiB are available");
 }
 
 // A sparse file of 2^40 bytes takes none of the disk.

@@ -99,8 +99,8 @@ TEST(GltfLimits, TrianglesWhoseVerticesDoNotFitIntoMemoryAreRefused) {
     if (!MemoryLimit::isPossible())
         GTEST_SKIP() << "memory cannot be limited here";
     const MemoryLimit limit(uint64_t{1} << 30);
-    expectQuickError(builder, "the 40000000 triangles that it draws take");
-    expectQuickError(builder, "1.0 GiB are available: simplify the scene");
+    expectQuickError(builder, "the 40000000 triangles that it draws take 1");
+    expectQuickError(builder, " are available: simplify the scene");
 }
 
 std::string chainOf(size_t nodes) {
