@@ -103,6 +103,36 @@ TEST(GltfLimits, TrianglesWhoseVerticesDoNotFitIntoMemoryAreRefused) {
     expectQuickError(builder, " are available: simplify the scene");
 }
 
+// 16384 x 8192 texels of one bit each, or the beginning of them: what may be in so many bytes.
+std::vector<char> largePng() {
+    const std::string head("\x89PNG\r\n\x1A\n\0\0\0\x0DIHDR\0\0\x40\0\0\0\x20\0\1\0\0\0\0\0\0\0\0", 33);
+    std::vector<char> bytes(head.begin(), head.end());
+    bytes.resize(17'000, '\0');
+    return bytes;
+}
+
+TEST(GltfLimits, PicturesBeyondATexelBufferAreRefusedBeforeTheyAreDecoded) {
+    GltfBuilder builder = goodFile();
+    const int view = builder.addView(largePng());
+    for (int i = 0; i < 5; ++i) {
+        builder.json["images"].push_back({{"bufferView", view}, {"mimeType", "image/png"}});
+        builder.json["textures"].push_back({{"source", i}});
+    }
+    builder.json["materials"] = {
+        {{"emissiveTexture", {{"index", 0}}},
+         {"emissiveFactor", {1, 1, 1}},
+         {"normalTexture", {{"index", 1}}},
+         {"pbrMetallicRoughness",
+          {{"baseColorTexture", {{"index", 2}}}, {"metallicRoughnessTexture", {{"index", 3}}}}}},
+        {{"normalTexture", {{"index", 4}}}}};
+    expectQuickError(builder, "its pictures take 2560 MiB, at most 2048 are supported: scale them down");
+    if (!MemoryLimit::isPossible())
+        return;
+    builder.json["materials"] = {{{"normalTexture", {{"index", 0}}}}};
+    const MemoryLimit limit(uint64_t{1} << 30);
+    expectQuickError(builder, "its pictures take 2.0 GiB of memory, ");
+}
+
 std::string chainOf(size_t nodes) {
     std::ostringstream json;
     json << R"({"asset":{"version":"2.0"},"nodes":[)";
