@@ -1,10 +1,12 @@
 // Tests of small files that ask for much: they are refused by their figures, before memory or time is spent.
 #include <chrono>
+#include <limits>
 #include <sstream>
 
 #include <gtest/gtest.h>
 
 #include "support/memory_limit.h"
+#include "support/sound_scene.h"
 #include "unit/scene/gltf_errors.h"
 
 namespace lavalight::test {
@@ -147,6 +149,47 @@ TEST(GltfLimits, ChainOfAHundredThousandNodesIsNoStackOverflow) {
     std::string ring = chainOf(100'000);
     ring.replace(ring.rfind("{}"), 2, R"({"children":[0]})");
     expectError(quickError(ring), "test.glb", "is among its own descendants");
+}
+
+// Nothing that is not finite gets into the scene, wherever it comes from.
+TEST(GltfLimits, HugeAndUndefinedTransformsLeaveASoundScene) {
+    constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    const Json huge(std::vector<double>(16, 1e308));
+    const std::vector<std::vector<glm::vec3>> badVectors = {
+        {{kNan, 0, 0}}, {{0, -kInfinity, 0}}, {{1e38f, 1e38f, 0}}};
+    std::vector<Json> nodes = {{{"matrix", huge}},
+                               {{"scale", {1e308, 1e308, 1e308}}},
+                               {{"scale", {0, 0, 0}}},
+                               {{"scale", {1e-300, 1, 1}}},
+                               {{"translation", {1e300, 0, -1e300}}},
+                               {{"rotation", {1e300, 0, 0, 1e300}}},
+                               {{"rotation", {0, 0, 0, 0}}}};
+    for (const Json& node : nodes) {
+        GltfBuilder builder = goodFile();
+        builder.json["cameras"] = {
+            {{"type", "perspective"}, {"perspective", {{"yfov", 1e300}, {"znear", 0.1}}}},
+            {{"type", "orthographic"},
+             {"orthographic", {{"xmag", 1e300}, {"ymag", 1e-300}, {"zfar", 1}, {"znear", 0}}}}};
+        builder.json["nodes"][0].update(node);
+        builder.json["nodes"][0]["camera"] = 0;
+        builder.json["nodes"][0]["children"] = {1};
+        builder.addNode({{"mesh", 0}, {"camera", 1}, {"scale", {1e200, 1e200, 1e200}}});
+        EXPECT_EQ(unsoundPart(builder.import()), "") << node;
+    }
+    for (const auto& bad : badVectors) {
+        GltfBuilder instances = goodFile();
+        const int accessor = instances.addVec3(bad);
+        instances.json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {
+            {"TRANSLATION", accessor}, {"SCALE", accessor}};
+        EXPECT_EQ(unsoundPart(instances.import()), "");
+        GltfBuilder keys = goodFile();
+        const int values = keys.addVec3(bad);
+        keys.json["animations"] = {
+            {{"samplers", {{{"input", addZeros(keys, 1, "SCALAR")}, {"output", values}}}},
+             {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "scale"}}}}}}}};
+        EXPECT_EQ(unsoundPart(importGltf("test.glb", keys.glb(), {.seconds = 0.0})), "");
+    }
 }
 
 // Read for each channel anew, they would be 10^11 keys.
