@@ -219,8 +219,8 @@ TEST(GltfDraco, StreamThatClaimsMoreTrianglesThanItCanHoldIsRefusedBeforeTheyAre
     EXPECT_NE(error.find("states 268435455 triangles in 83 bytes"), std::string::npos) << error;
 }
 
-// A grid whose positions and one attribute of 127 zeros a point take next to no bytes.
-std::string dracoGrid(uint32_t side) {
+// A grid whose positions, and attributes of 127 zeros a point, take next to no bytes.
+std::string dracoGrid(uint32_t side, int attributes = 1) {
     draco::Mesh mesh;
     const uint32_t points = side * side;
     mesh.set_num_points(points);
@@ -231,13 +231,13 @@ std::string dracoGrid(uint32_t side) {
         return mesh.attribute(mesh.AddAttribute(attribute, true, points));
     };
     draco::PointAttribute* positions = add(draco::GeometryAttribute::POSITION, 3, draco::DT_INT32, 12);
-    draco::PointAttribute* zeros = add(draco::GeometryAttribute::GENERIC, 127, draco::DT_INT32, 508);
-    const std::vector<int32_t> none(127, 0);
+    for (int i = 0; i < attributes; ++i)
+        std::fill_n(add(draco::GeometryAttribute::GENERIC, 127, draco::DT_INT32, 508)->buffer()->data(),
+                    size_t{508} * points, uint8_t{0});
     for (uint32_t i = 0; i < points; ++i) {
         const std::array<int32_t, 3> position{static_cast<int32_t>(i % side), static_cast<int32_t>(i / side),
                                               0};
         positions->SetAttributeValue(draco::AttributeValueIndex(i), position.data());
-        zeros->SetAttributeValue(draco::AttributeValueIndex(i), none.data());
     }
     for (uint32_t i = 0; i + side < points; ++i) {
         if (i % side + 1 == side)
@@ -262,6 +262,11 @@ TEST(GltfDraco, AttributesThatDoNotFitIntoMemoryAreRefusedBeforeTheyAreMade) {
         error.find("mesh 0 \"part\" (KHR_draco_mesh_compression) has values which take 89 MiB of memory"),
         std::string::npos)
         << error;
+}
+
+TEST(GltfDraco, AttributesBeyondWhatAStreamCanFillAreRefusedBeforeTheyAreMade) {
+    const std::string error = importError(dracoBuilder(dracoGrid(100, 24)));
+    EXPECT_NE(error.find("122040000 bytes of values cannot be in its stream"), std::string::npos) << error;
 }
 
 TEST(GltfDraco, StreamThatManyPrimitivesNameCountsForEach) {
