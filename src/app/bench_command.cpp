@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "accel/embree_oracle.h"
+#include "app/scene_options.h"
 #include "base/error.h"
 #include "base/log.h"
 #include "render/gpu_scene.h"
@@ -212,10 +213,11 @@ BenchCommand::BenchCommand(CLI::App& app) : Command(app, "bench", "Measure speed
         ->check(CLI::Range(1u, 1000u));
     deviceOptions_.emplace(rays);
     rays.add_flag("--json", json_, "Print JSON");
+    addAllowExternal(rays, import_);
 }
 
 int BenchCommand::run() {
-    const Scene scene = loadScene(scene_);
+    const Scene scene = loadScene(scene_, import_);
     for (const std::string& warning : scene.warnings)
         spdlog::warn("{}", warning);
     limitThreads();

@@ -7,6 +7,7 @@
 
 #include "app/command.h"
 #include "app/device_options.h"
+#include "scene/import_options.h"
 
 namespace lavalight {
 
@@ -18,6 +19,7 @@ class BenchCommand : public Command {
 
   private:
     std::string scene_;
+    ImportOptions import_;
     std::optional<DeviceOptions> deviceOptions_; // always
     uint32_t rays_ = 1000000; // of the camera; the others start where these hit
     uint32_t repeats_ = 5;

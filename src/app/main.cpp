@@ -1,33 +1,18 @@
-// The command line: declares the subcommands, runs the chosen one, and turns failures into one line and an
-// exit code.
+// Turns failures into one line and an exit code.
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cstdio>
 #include <exception>
 #include <iostream>
-#include <memory>
 #include <new>
+#include <optional>
 #include <string>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
-#include "app/bench_command.h"
-#include "app/compare_command.h"
-#include "app/devices_command.h"
-#include "app/info_command.h"
-#include "app/lab_command.h"
-#include "app/merge_command.h"
-#include "app/new_experiment_command.h"
-#include "app/presets_command.h"
-#include "app/render_command.h"
-#include "app/trace_command.h"
-#include "app/view_command.h"
+#include "app/command_line.h"
 #include "base/error.h"
 #include "base/log.h"
-#include "base/version.h"
 
 namespace lavalight {
 namespace {
@@ -42,64 +27,10 @@ void reportError(std::string message) {
     spdlog::error("{}", message);
 }
 
-std::string commandNames(const CLI::App& app) {
-    std::string names;
-    for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
-        names += (names.empty() ? "" : ", ") + command->get_name();
-    return names;
-}
-
-// What the parser says, with the remedy. Words that nobody takes come in order; before any command, the first
-// was most likely meant as one.
-std::string usageMessage(const CLI::App& app, const CLI::ParseError& error) {
-    const auto chosen = app.get_subcommands();
-    std::string message = error.what();
-    if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr)
-        message = fmt::format("not understood: {}", fmt::join(app.remaining(true), " "));
-    if (!chosen.empty())
-        return fmt::format("{} (see lavalight {} --help)", message, chosen.front()->get_name());
-    return fmt::format("{} (see lavalight --help; commands: {})", message, commandNames(app));
-}
-
-template <size_t N>
-int runChosen(const CLI::App& app, const std::array<std::unique_ptr<Command>, N>& commands) {
-    const auto command =
-        std::find_if(commands.begin(), commands.end(), [](const auto& c) { return c->chosen(); });
-    if (command == commands.end()) {
-        fmt::print(stderr, "{}", app.help());
-        return kWrongUsage;
-    }
-    return (*command)->run();
-}
-
 int parseAndRun(int argc, char** argv) {
-    CLI::App app(
-        "Lavalight: a physically based path tracer for glTF 2.0 on any Vulkan device, lavapipe included",
-        "lavalight");
-    app.set_version_flag("--version", fmt::format("lavalight {}", kVersion));
-    app.require_subcommand(0, 1);
-    app.option_defaults()->always_capture_default();
-    const auto commands = std::to_array<std::unique_ptr<Command>>({
-        std::make_unique<RenderCommand>(app),
-        std::make_unique<ViewCommand>(app),
-        std::make_unique<PresetsCommand>(app),
-        std::make_unique<TraceCommand>(app),
-        std::make_unique<LabCommand>(app),
-        std::make_unique<NewExperimentCommand>(app),
-        std::make_unique<InfoCommand>(app),
-        std::make_unique<DevicesCommand>(app),
-        std::make_unique<CompareCommand>(app),
-        std::make_unique<MergeCommand>(app),
-        std::make_unique<BenchCommand>(app),
-    });
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::Success& help) {
-        return app.exit(help);
-    } catch (const CLI::ParseError& error) {
-        throw UsageError(usageMessage(app, error));
-    }
-    return runChosen(app, commands);
+    CommandLine commandLine;
+    const std::optional<int> exitCode = commandLine.parse(argc, argv, std::cout);
+    return exitCode ? *exitCode : commandLine.run();
 }
 
 // Results may end on a full disk.

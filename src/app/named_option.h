@@ -2,8 +2,8 @@
 #pragma once
 
 #include <map>
-#include <ranges>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -17,10 +17,13 @@ namespace lavalight {
 // stores.
 template <typename Value>
 [[nodiscard]] CLI::Validator oneOf(const std::map<std::string, Value>& values) {
-    const auto replaceName = [values](std::string& text) -> std::string {
+    std::vector<std::string> names;
+    for (const auto& [name, value] : values)
+        names.push_back(name);
+    const auto replaceName = [values, names](std::string& text) -> std::string {
         const auto found = values.find(CLI::detail::to_lower(text));
         if (found == values.end())
-            return fmt::format("{} not in {{{}}}", text, fmt::join(std::views::keys(values), ","));
+            return fmt::format("{} not in {{{}}}", text, fmt::join(names, ","));
         text = std::to_string(static_cast<uint32_t>(found->second));
         return {};
     };

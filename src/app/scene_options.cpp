@@ -8,6 +8,11 @@
 
 namespace lavalight {
 
+void addAllowExternal(CLI::App& parser, ImportOptions& options) {
+    parser.add_flag("--allow-external", options.allowsExternal,
+                    "The scene may refer to files outside its folder; never to other addresses");
+}
+
 SceneOptions::SceneOptions(CLI::App& parser) : parser_(&parser) {
     parser
         .add_option("--at", seconds_,
@@ -23,6 +28,7 @@ SceneOptions::SceneOptions(CLI::App& parser) : parser_(&parser) {
         .add_option("--variant", options_.variant,
                     "Variant of the materials by name or index (see lavalight info)")
         ->type_name("NAME|INDEX");
+    addAllowExternal(parser, options_);
 }
 
 ImportOptions SceneOptions::importOptions() const {

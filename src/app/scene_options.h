@@ -9,6 +9,9 @@
 
 namespace lavalight {
 
+// Declares --allow-external alone. `options` must outlive the parsing; the parser points into it.
+void addAllowExternal(CLI::App& parser, ImportOptions& options);
+
 // Must outlive the parsing; the parser points into it.
 class SceneOptions {
   public:

@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include "base/error.h"
+#include "base/memory.h"
 
 namespace lavalight {
 namespace {
@@ -126,6 +127,8 @@ std::string readFile(const fs::path& path) {
     const auto size = fs::file_size(path, code);
     if (code)
         throwUnreadable(path, code.message());
+    if (const std::string shortage = memoryShortage(size); !shortage.empty())
+        throwUnreadable(path, "its bytes " + shortage);
     std::string bytes(size, '\0');
     in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
     if (static_cast<size_t>(in.gcount()) != bytes.size())

@@ -11,7 +11,8 @@ namespace lavalight {
 // Throws Error unless `path` names a regular file: for readers that open the file themselves.
 void requireRegularFile(const std::filesystem::path& path);
 
-// The bytes of a regular file. Throws Error for a missing file, a directory, a device or an unreadable file.
+// The bytes of a regular file. Throws Error for a missing file, a directory, a device, an unreadable file,
+// and for one that memory does not hold.
 [[nodiscard]] std::string readFile(const std::filesystem::path& path);
 
 // Calls `write` with the name of a new file in the same folder, brings that file to the disk (fsync), then

@@ -5,9 +5,6 @@
 #include <fstream>
 #include <utility>
 
-#include <fmt/format.h>
-
-#include "base/error.h"
 #include "base/file.h"
 #include "image/exr.h"
 #include "image/hdr.h"
@@ -32,12 +29,7 @@ bool isGood(float value) {
 
 EnvironmentFile readEnvironmentFile(const std::filesystem::path& path) {
     EnvironmentFile file;
-    file.image = isExr(path) ? std::move(readExr(path).radiance) : readHdr(path);
-    if (const uint64_t texels = file.image.pixels.size(); texels > kMostTexels)
-        throw Error(
-            fmt::format("cannot use {}: it has {} pixels; the limit is {}, as of 16384 x 8192: scale it "
-                        "down",
-                        path.string(), texels, kMostTexels));
+    file.image = isExr(path) ? std::move(readExr(path, kMostTexels).radiance) : readHdr(path, kMostTexels);
     for (glm::vec3& pixel : file.image.pixels) {
         const glm::bvec3 good(isGood(pixel.x), isGood(pixel.y), isGood(pixel.z));
         file.badTexels += glm::all(good) ? 0u : 1u;

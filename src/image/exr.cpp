@@ -26,6 +26,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/log.h"
+#include "image/exr_header_check.h"
 
 namespace lavalight {
 namespace {
@@ -162,10 +163,12 @@ void warnIfNotRec709(const Imf::Header& header, const std::filesystem::path& pat
 // so that a small damaged file that claims 16384 x 16384 pixels fails before we have touched gigabytes.
 class PixelReader {
   public:
-    explicit PixelReader(Imf::InputFile& file)
+    PixelReader(Imf::InputFile& file, uint64_t mostPixels, uint64_t bytesEach)
         : file_(file), window_(file.header().dataWindow()),
           width_(static_cast<uint32_t>(window_.max.x - window_.min.x + 1)),
-          height_(static_cast<uint32_t>(window_.max.y - window_.min.y + 1)) {}
+          height_(static_cast<uint32_t>(window_.max.y - window_.min.y + 1)) {
+        requirePixelsFit(width_, height_, mostPixels, bytesEach);
+    }
 
     void bindColor(Image& image, const std::array<const char*, 3>& names) {
         reserve(image);
@@ -231,19 +234,21 @@ Metadata readMetadata(const Imf::Header& header) {
     return metadata;
 }
 
-ExrFile readChannels(Imf::InputFile& file) {
+ExrFile readChannels(Imf::InputFile& file, uint64_t mostPixels) {
     const Imf::ChannelList& channels = file.header().channels();
     const bool grey = !hasAll(channels, kColor);
     if (grey && !isLuminance(channels))
         throw Error(fmt::format("it lacks channels R, G, B (or Y alone) at full resolution; it has {}",
                                 channelNames(channels)));
+    const bool hasVariance = hasAll(channels, kVariance);
+    const uint64_t bytesEach = sizeof(glm::vec3) * (hasVariance ? 2 : 1) + sizeof(uint32_t);
     ExrFile result;
-    PixelReader reader(file);
+    PixelReader reader(file, mostPixels, bytesEach);
     if (grey)
         reader.bindGrey(result.radiance);
     else
         reader.bindColor(result.radiance, kColor);
-    if (hasAll(channels, kVariance))
+    if (hasVariance)
         reader.bindColor(result.variance.emplace(), kVariance);
     if (hasChannel(channels, kSamples))
         reader.bindCounts(result.sampleCounts.emplace(), kSamples);
@@ -266,7 +271,7 @@ std::optional<UintImage> readCounts(Imf::InputFile& file, std::span<const std::s
                     {},
                     readMetadata(file.header())};
     std::vector<std::vector<uint32_t>> planes(names.size());
-    PixelReader reader(file);
+    PixelReader reader(file, kMaxImagePixels, 2 * sizeof(uint32_t) * names.size()); // with the copy below
     for (size_t i = 0; i < names.size(); ++i)
         reader.bindCounts(planes[i], names[i].c_str());
     reader.read();
@@ -291,6 +296,7 @@ auto readWith(const std::filesystem::path& path, const Read& read) {
     useAllCores();
     try {
         requireSaneHeader(path);
+        requireSaneAttributes(path);
         Imf::InputFile file(path.c_str());
         return read(file);
     } catch (const std::bad_alloc&) {
@@ -319,10 +325,10 @@ void writeExr(const std::filesystem::path& path, const Rendering& rendering, con
     });
 }
 
-ExrFile readExr(const std::filesystem::path& path) {
+ExrFile readExr(const std::filesystem::path& path, uint64_t mostPixels) {
     return readWith(path, [&](Imf::InputFile& file) {
         warnIfNotRec709(file.header(), path);
-        return readChannels(file);
+        return readChannels(file, mostPixels);
     });
 }
 

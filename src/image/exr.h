@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "image/image.h"
+#include "image/pixel_limit.h"
 
 namespace lavalight {
 
@@ -42,8 +43,8 @@ struct ExrFile {
 // Reads the first part of any scan-line or tiled file with R, G and B, or with luminance Y alone, in half,
 // float or unsigned; other channels are ignored. Colours are taken as linear Rec. 709; a file that says
 // otherwise gets a warning. Throws Error for whatever is no such file: missing, damaged, incomplete, larger
-// than kMaxImageSide, without colour.
-[[nodiscard]] ExrFile readExr(const std::filesystem::path& path);
+// than kMaxImageSide a side, than `mostPixels` or than memory, without colour.
+[[nodiscard]] ExrFile readExr(const std::filesystem::path& path, uint64_t mostPixels = kMaxImagePixels);
 
 struct UintImage {
     uint32_t width = 0;

@@ -162,13 +162,18 @@ glm::vec3 radianceOf(const Rgbe& pixel, float scale) {
     return unit * glm::vec3(pixel[0], pixel[1], pixel[2]);
 }
 
-Image decode(std::string_view bytes) {
+// Of a row, at least: a pixel, and marks that repeat it 255 and 256 * 255 times. The new runs take more.
+uint64_t fewestBytes(uint32_t width) {
+    return width == 1 ? 4 : width <= 256 ? 8 : 12;
+}
+
+Image decode(std::string_view bytes, uint64_t mostPixels) {
     Reader reader(bytes);
     const float exposure = readVariables(reader);
     const Size size = readSize(reader);
-    // The shortest row: a run of 127 for each component, or a mark that repeats 256^k times.
-    if (reader.left() < size.height)
+    if (reader.left() / fewestBytes(size.width) < size.height)
         throw Error("it ends within its pixels");
+    requirePixelsFit(size.width, size.height, mostPixels, sizeof(glm::vec3));
     Image image(size.width, size.height);
     std::vector<Rgbe> row(size.width);
     for (uint32_t y = 0; y < size.height; ++y) {
@@ -186,10 +191,10 @@ Image decode(std::string_view bytes) {
 
 } // namespace
 
-Image readHdr(const std::filesystem::path& path) {
+Image readHdr(const std::filesystem::path& path, uint64_t mostPixels) {
     const std::string bytes = readFile(path);
     try {
-        return decode(bytes);
+        return decode(bytes, mostPixels);
     } catch (const Error& error) {
         throw Error(fmt::format("cannot read {}: {}", path.string(), error.what()));
     }

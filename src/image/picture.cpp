@@ -1,19 +1,27 @@
 // Pictures by stb_image and libwebp.
 #include "image/picture.h"
 
+#include <algorithm>
 #include <limits>
 #include <memory>
+#include <optional>
 
 #include <fmt/format.h>
 #include <stb_image.h>
 #include <webp/decode.h>
 
 #include "base/error.h"
+#include "image/jpeg_check.h"
 
 namespace lavalight {
 namespace {
 
 constexpr int kChannels = 4;
+
+// A stream of deflate stands for at most 1032 times its bytes: 258 a match, whose two codes take a bit each.
+constexpr uint64_t kMostDeflateExpansion = 1032;
+// Every block of 8 x 8 takes one bit of a JPEG, if only in the first scan of a progressive one.
+constexpr uint64_t kMostJpegTexelsPerByte = 8 * 64;
 
 void requireFitting(int64_t width, int64_t height) {
     if (width < 1 || height < 1)
@@ -23,26 +31,85 @@ void requireFitting(int64_t width, int64_t height) {
                                 height, kMostPictureTexels));
 }
 
+// Small files of a huge picture are damaged, or made to fill the memory. (WebP has no such bound: it may give
+// one colour to all texels in no bits at all.)
+void requirePlausible(int64_t width, int64_t height, size_t bytes, uint64_t mostTexelsPerByte) {
+    if (static_cast<uint64_t>(width * height) / mostTexelsPerByte > bytes)
+        throw Error(fmt::format("it is damaged: {} x {} texels cannot be in {} bytes", width, height, bytes));
+}
+
+bool isPng(std::string_view bytes) {
+    return bytes.starts_with("\x89PNG\r\n\x1A\n");
+}
+
+bool isJpeg(std::string_view bytes) {
+    return bytes.starts_with("\xFF\xD8");
+}
+
 // RIFF, four bytes of length, WEBP.
 bool isWebp(std::string_view bytes) {
     return bytes.size() >= 12 && bytes.starts_with("RIFF") && bytes.substr(8, 4) == "WEBP";
 }
 
-Picture decodeWebp(std::string_view bytes) {
-    const auto* data = reinterpret_cast<const uint8_t*>(bytes.data());
-    Picture picture;
+// What the first chunk says, which starts at byte 8: length, "IHDR", width, height, bits of a channel, kind
+// of colour.
+struct PngHeader {
+    uint32_t width = 0;
+    uint32_t height = 0;
+    uint64_t texelsPerByte = 1; // at most, of the whole file
+};
+
+std::optional<PngHeader> headerOfPng(std::string_view bytes) {
+    if (!isPng(bytes) || bytes.size() < 26 || bytes.substr(12, 4) != "IHDR")
+        return std::nullopt;
+    const auto at = [&](size_t i) { return static_cast<uint8_t>(bytes[i]); };
+    const auto word = [&](size_t i) {
+        return uint32_t{at(i)} << 24u | uint32_t{at(i + 1)} << 16u | uint32_t{at(i + 2)} << 8u | at(i + 3);
+    };
+    const uint8_t color = at(25);
+    const uint64_t channels = color == 2 ? 3 : color == 4 ? 2 : color == 6 ? 4 : 1;
+    const uint64_t bits = std::max<uint64_t>(at(24) * channels, 1);
+    return PngHeader{word(16), word(20), std::max<uint64_t>(8 * kMostDeflateExpansion / bits, 1)};
+}
+
+PictureSize measureWebp(std::string_view bytes) {
     int width = 0;
     int height = 0;
-    if (WebPGetInfo(data, bytes.size(), &width, &height) == 0)
+    if (WebPGetInfo(reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size(), &width, &height) == 0)
         throw Error("it is a damaged WebP file");
     requireFitting(width, height);
-    picture.width = static_cast<uint32_t>(width);
-    picture.height = static_cast<uint32_t>(height);
-    picture.bytes.resize(size_t{picture.width} * picture.height * kChannels);
+    return {static_cast<uint32_t>(width), static_cast<uint32_t>(height), false};
+}
+
+Picture decodeWebp(std::string_view bytes) {
+    const PictureSize size = measureWebp(bytes);
+    Picture picture{{}, size.width, size.height, false, std::vector<uint8_t>(size.bytes())};
+    const auto* data = reinterpret_cast<const uint8_t*>(bytes.data());
     if (WebPDecodeRGBAInto(data, bytes.size(), picture.bytes.data(), picture.bytes.size(),
-                           width * kChannels) == nullptr)
+                           static_cast<int>(size.width) * kChannels) == nullptr)
         throw Error("it is a damaged WebP file");
     return picture;
+}
+
+PictureSize measureByStb(std::string_view bytes) {
+    if (bytes.size() > static_cast<size_t>(std::numeric_limits<int>::max()))
+        throw Error("it is larger than 2 GiB");
+    if (isJpeg(bytes))
+        requireSoundJpeg(bytes);
+    const std::optional<PngHeader> png = headerOfPng(bytes);
+    if (png) // stb calls what is too large for it unknown
+        requireFitting(png->width, png->height);
+    const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
+    const int length = static_cast<int>(bytes.size());
+    int width = 0;
+    int height = 0;
+    int channels = 0;
+    if (stbi_info_from_memory(data, length, &width, &height, &channels) == 0)
+        throw Error(fmt::format("it is damaged ({})", stbi_failure_reason()));
+    requireFitting(width, height);
+    requirePlausible(width, height, bytes.size(), png ? png->texelsPerByte : kMostJpegTexelsPerByte);
+    return {static_cast<uint32_t>(width), static_cast<uint32_t>(height),
+            stbi_is_16_bit_from_memory(data, length) != 0};
 }
 
 struct StbDeleter {
@@ -50,36 +117,38 @@ struct StbDeleter {
 };
 
 Picture decodeByStb(std::string_view bytes) {
-    if (bytes.size() > static_cast<size_t>(std::numeric_limits<int>::max()))
-        throw Error("it is larger than 2 GiB");
+    const PictureSize size = measureByStb(bytes);
     const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
     const int length = static_cast<int>(bytes.size());
     int width = 0;
     int height = 0;
     int channels = 0;
-    if (stbi_info_from_memory(data, length, &width, &height, &channels) == 0)
-        throw Error(fmt::format("it is no PNG, JPEG or WebP file ({})", stbi_failure_reason()));
-    requireFitting(width, height);
-    Picture picture;
-    picture.is16Bit = stbi_is_16_bit_from_memory(data, length) != 0;
     const std::unique_ptr<void, StbDeleter> texels(
-        picture.is16Bit
+        size.is16Bit
             ? static_cast<void*>(
                   stbi_load_16_from_memory(data, length, &width, &height, &channels, kChannels))
             : static_cast<void*>(stbi_load_from_memory(data, length, &width, &height, &channels, kChannels)));
     if (!texels)
         throw Error(fmt::format("it is damaged ({})", stbi_failure_reason()));
-    picture.width = static_cast<uint32_t>(width);
-    picture.height = static_cast<uint32_t>(height);
-    const size_t size = size_t{picture.width} * picture.height * kChannels * (picture.is16Bit ? 2 : 1);
     const auto* first = static_cast<const uint8_t*>(texels.get());
-    picture.bytes.assign(first, first + size);
-    return picture;
+    return {{}, size.width, size.height, size.is16Bit, std::vector<uint8_t>(first, first + size.bytes())};
+}
+
+// stb reads more formats, which glTF does not have and nobody has tested.
+void requireKnown(std::string_view bytes) {
+    if (!isWebp(bytes) && !isPng(bytes) && !isJpeg(bytes))
+        throw Error("it is no PNG, JPEG or WebP file");
 }
 
 } // namespace
 
+PictureSize measurePicture(std::string_view bytes) {
+    requireKnown(bytes);
+    return isWebp(bytes) ? measureWebp(bytes) : measureByStb(bytes);
+}
+
 Picture decodePicture(std::string_view bytes) {
+    requireKnown(bytes);
     return isWebp(bytes) ? decodeWebp(bytes) : decodeByStb(bytes);
 }
 

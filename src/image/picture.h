@@ -20,9 +20,20 @@ struct Picture {
 // The most texels of a picture; 512 MiB of them, or twice that with 16 bits a channel.
 constexpr uint64_t kMostPictureTexels = 134'217'728;
 
+struct PictureSize {
+    uint32_t width = 0;
+    uint32_t height = 0;
+    bool is16Bit = false;
+
+    [[nodiscard]] uint64_t bytes() const { return uint64_t{width} * height * (is16Bit ? 8 : 4); }
+};
+
+// Of the picture that decodePicture would make. Throws Error, which does not name the picture, for other
+// formats, for pictures of too many texels, and of more than their bytes can hold.
+[[nodiscard]] PictureSize measurePicture(std::string_view bytes);
+
 // Decodes the bytes of a PNG, JPEG or WebP file, told apart by their first bytes. Grey becomes RGB, a missing
-// alpha 1. Throws Error, which does not name the picture, for damaged bytes, other formats, and, before
-// anything is allocated, for pictures of too many texels.
+// alpha 1. Throws Error as measurePicture does, before anything is allocated, and for damaged bytes.
 [[nodiscard]] Picture decodePicture(std::string_view bytes);
 
 } // namespace lavalight

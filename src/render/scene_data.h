@@ -32,7 +32,8 @@ struct SceneData {
     uint32_t features; // kFeature...
 };
 
-// Builds the BVH and packs everything; no device is needed. `lights` are the scene's.
+// Builds the BVH and packs everything; no device is needed. `lights` are the scene's. Throws Error for more
+// triangles than memory could hold.
 [[nodiscard]] SceneData packScene(const Scene& scene, const Lights& lights);
 // With its own environment, and lights picked by power.
 [[nodiscard]] SceneData packScene(const Scene& scene);

@@ -12,8 +12,11 @@
 namespace lavalight {
 namespace {
 
-// An accessor without data may ask for any number of zeros; no file has use for more of them than this.
+// An accessor without data may ask for any number of zeros, a few bytes of a file for hours of work. Files
+// have them as the base of sparse morph targets: of as many elements as a mesh has vertices, two or three for
+// each target.
 constexpr size_t kMostZeros = size_t{1} << 24;
+constexpr size_t kMostZerosInAll = size_t{1} << 28;
 constexpr std::array<char, 64>
     kZeros{}; // the largest element, a MAT4 of 4-byte components; read with a stride of 0
 
@@ -176,36 +179,54 @@ AccessorView::AccessorView(const GltfDocument& document, int index) {
         stride_ = 0;
     }
     if (accessor.sparse.isSparse)
-        applySparse(document, accessor);
+        readSparse(document, accessor);
 }
 
-void AccessorView::applySparse(const GltfDocument& document, const tinygltf::Accessor& accessor) {
+void AccessorView::readSparse(const GltfDocument& document, const tinygltf::Accessor& accessor) {
     const auto& sparse = accessor.sparse;
-    const auto replaced = static_cast<size_t>(sparse.count);
-    if (replaced == 0 || replaced > count_ || !isUnsigned(sparse.indices.componentType))
+    replacedCount_ = static_cast<size_t>(sparse.count);
+    replacedType_ = sparse.indices.componentType;
+    if (replacedCount_ == 0 || replacedCount_ > count_ || !isUnsigned(replacedType_))
         throw document.error(fmt::format("{} replaces {} of its {} elements, by indices of component type {}",
-                                         name_, replaced, count_, sparse.indices.componentType));
-    const size_t indexSize = componentSize(sparse.indices.componentType);
-    const std::string_view indices =
+                                         name_, replacedCount_, count_, replacedType_));
+    const size_t indexSize = componentSize(replacedType_);
+    replacedNumbers_ =
         bytesOfRange(document, name_ + " (sparse indices)",
-                     {sparse.indices.bufferView, static_cast<size_t>(sparse.indices.byteOffset), replaced,
-                      indexSize, indexSize});
-    const std::string_view values =
-        bytesOfRange(document, name_ + " (sparse values)",
-                     {sparse.values.bufferView, static_cast<size_t>(sparse.values.byteOffset), replaced,
-                      elementSize_, packedStride_});
-    std::string dense(count_ * packedStride_, '\0');
-    for (size_t i = 0; i < count_; ++i)
-        bytes_.copy(&dense[i * packedStride_], elementSize_, i * stride_);
-    for (size_t i = 0; i < replaced; ++i) {
-        const size_t target = loadUnsigned(indices.substr(i * indexSize), sparse.indices.componentType);
-        if (target >= count_)
-            throw document.error(fmt::format("{} replaces element {} of {}", name_, target, count_));
-        values.copy(&dense[target * packedStride_], elementSize_, i * packedStride_);
+                     {sparse.indices.bufferView, static_cast<size_t>(sparse.indices.byteOffset),
+                      replacedCount_, indexSize, indexSize});
+    replacedElements_ = bytesOfRange(document, name_ + " (sparse values)",
+                                     {sparse.values.bufferView, static_cast<size_t>(sparse.values.byteOffset),
+                                      replacedCount_, elementSize_, packedStride_});
+}
+
+uint32_t AccessorView::replacedAt(size_t number) const {
+    return loadUnsigned(replacedNumbers_.substr(number * componentSize(replacedType_)), replacedType_);
+}
+
+std::string_view AccessorView::elementAt(size_t i) const {
+    assert(i < count_);
+    size_t first = 0; // replaced element whose number is i or above, found by halves
+    for (size_t end = replacedCount_; first < end;) {
+        const size_t middle = first + (end - first) / 2;
+        if (replacedAt(middle) < i)
+            first = middle + 1;
+        else
+            end = middle;
     }
-    own_ = std::move(dense);
-    bytes_ = own_;
-    stride_ = packedStride_;
+    if (first < replacedCount_ && replacedAt(first) == i)
+        return replacedElements_.substr(first * packedStride_, elementSize_);
+    return bytes_.substr(i * stride_, elementSize_);
+}
+
+// The numbers of sparse elements must ascend (section 5.2), which looking them up takes for granted.
+void AccessorView::checkSparse(const GltfDocument& document) const {
+    for (size_t i = 0; i < replacedCount_; ++i) {
+        if (replacedAt(i) >= count_)
+            throw document.error(fmt::format("{} replaces element {} of {}", name_, replacedAt(i), count_));
+        if (i > 0 && replacedAt(i) <= replacedAt(i - 1))
+            throw document.error(fmt::format("{} replaces element {} after element {}, but they must ascend",
+                                             name_, replacedAt(i), replacedAt(i - 1)));
+    }
 }
 
 bool AccessorView::isUnsignedScalar() const {
@@ -224,7 +245,7 @@ template <class Vector>
 Vector AccessorView::vectorAt(size_t i) const {
     constexpr auto kSize = static_cast<size_t>(Vector::length());
     assert(elementSize_ == kSize * componentSize(componentType_) && i < count_);
-    const std::string_view element = bytes_.substr(i * stride_, elementSize_);
+    const std::string_view element = elementAt(i);
     if (componentType_ == TINYGLTF_COMPONENT_TYPE_FLOAT)
         return load<Vector>(element);
     const size_t size = elementSize_ / kSize;
@@ -253,20 +274,28 @@ glm::vec4 AccessorView::vec4At(size_t i) const {
 
 glm::mat4 AccessorView::mat4At(size_t i) const {
     assert(isFloatMat4() && i < count_);
-    return load<glm::mat4>(bytes_.substr(i * stride_, elementSize_));
+    return load<glm::mat4>(elementAt(i));
 }
 
 uint32_t AccessorView::unsignedAt(size_t i) const {
     assert(isUnsignedScalar() && i < count_);
-    return loadUnsigned(bytes_.substr(i * stride_, elementSize_), componentType_);
+    return loadUnsigned(elementAt(i), componentType_);
 }
 
 void checkAccessors(const GltfDocument& document) {
     for (size_t i = 0; i < document.model.bufferViews.size(); ++i)
         requireInsideBuffer(document, static_cast<int>(i));
+    size_t zeros = 0;
     for (size_t i = 0; i < document.model.accessors.size(); ++i) {
-        if (hasData(document, document.model.accessors[i]))
-            static_cast<void>(AccessorView(document, static_cast<int>(i)));
+        const tinygltf::Accessor& accessor = document.model.accessors[i];
+        if (!hasData(document, accessor))
+            continue;
+        AccessorView(document, static_cast<int>(i)).checkSparse(document);
+        zeros += accessor.bufferView < 0 ? accessor.count : 0; // kMostZeros each: no overflow
+        if (zeros > kMostZerosInAll)
+            throw document.error(fmt::format("its accessors ask for {} elements without data, at most {} are "
+                                             "supported",
+                                             zeros, kMostZerosInAll));
     }
 }
 

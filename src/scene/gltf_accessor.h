@@ -30,6 +30,9 @@ class AccessorView {
     [[nodiscard]] bool isUnsignedVec4() const; // and not normalized
     [[nodiscard]] bool isFloatMat4() const;
 
+    // Throws Error unless the sparse elements are in range and in order. The rest takes that for granted.
+    void checkSparse(const GltfDocument& document) const;
+
     // Element i < count() of a SCALAR, VEC2, VEC3 or VEC4; normalized integers are mapped to [0, 1] or [-1,
     // 1]. May be infinite or NaN.
     [[nodiscard]] float scalarAt(size_t i) const;
@@ -45,7 +48,9 @@ class AccessorView {
   private:
     template <class Vector>
     [[nodiscard]] Vector vectorAt(size_t i) const;
-    void applySparse(const GltfDocument& document, const tinygltf::Accessor& accessor);
+    void readSparse(const GltfDocument& document, const tinygltf::Accessor& accessor);
+    [[nodiscard]] uint32_t replacedAt(size_t number) const; // ascending, where the document has been checked
+    [[nodiscard]] std::string_view elementAt(size_t i) const;
 
     std::string name_;
     size_t count_ = 0;
@@ -56,7 +61,13 @@ class AccessorView {
     size_t packedStride_ = 0; // bytes from one element to the next where nothing lies between
     size_t stride_ = 0;       // bytes from one element to the next
     std::string_view bytes_;  // from the first byte of the first element
-    std::string own_;         // what bytes_ views where sparse elements have been replaced
+
+    // Elements that are replaced: looked up, for a copy of all would cost each use of a large accessor as
+    // much.
+    size_t replacedCount_ = 0;
+    int replacedType_ = 0;              // component type of their numbers
+    std::string_view replacedNumbers_;  // packed
+    std::string_view replacedElements_; // packedStride_ bytes apart
 };
 
 // Throws Error unless all accessors and buffer views of the document are sound, used or not.

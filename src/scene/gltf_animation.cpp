@@ -66,6 +66,7 @@ Pose poseAt(const GltfDocument& document, const ImportOptions& options) {
     const tinygltf::Animation& animation = document.model.animations[index];
     const std::string name = describe("animation", index, animation.name);
     Pose pose(document.model.nodes.size());
+    KeyTimes times(document);
     for (const tinygltf::AnimationChannel& channel : animation.channels) {
         const std::string& path = channel.target_path;
         if (path != "translation" && path != "rotation" && path != "scale" && path != "weights")
@@ -74,7 +75,7 @@ Pose poseAt(const GltfDocument& document, const ImportOptions& options) {
         if (channel.sampler < 0 || sampler >= animation.samplers.size())
             throw document.error(fmt::format("{} has {} samplers, but a channel uses number {}", name,
                                              animation.samplers.size(), channel.sampler));
-        const Keyframes keys(document, animation.samplers[sampler], path);
+        const Keyframes keys(document, animation.samplers[sampler], path, times);
         applyChannel(keys, path, *options.seconds, pose.at(static_cast<size_t>(channel.target_node)));
     }
     return pose;

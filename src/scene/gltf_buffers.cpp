@@ -2,81 +2,15 @@
 #include "scene/gltf_buffers.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cstdint>
-#include <system_error>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <tiny_gltf.h>
 
-#include "base/file.h"
 #include "scene/gltf_notes.h"
 
 namespace lavalight {
 namespace {
-
-constexpr std::string_view kBase64 = ";base64";
-
-std::string percentDecoded(std::string_view uri) {
-    const auto isHex = [&](size_t i) {
-        return i < uri.size() && std::isxdigit(static_cast<unsigned char>(uri[i]));
-    };
-    std::string text;
-    for (size_t i = 0; i < uri.size(); ++i) {
-        if (uri[i] == '%' && isHex(i + 1) && isHex(i + 2)) {
-            text += static_cast<char>(std::stoi(std::string(uri.substr(i + 1, 2)), nullptr, 16));
-            i += 2;
-        } else {
-            text += uri[i];
-        }
-    }
-    return text;
-}
-
-std::string decodeDataUri(std::string_view uri) {
-    const size_t comma = uri.find(',');
-    if (comma == std::string_view::npos)
-        throw Error("its data URI has no data");
-    if (!uri.substr(0, comma).ends_with(kBase64))
-        return percentDecoded(uri.substr(comma + 1));
-    // tinygltf decodes only the media types that it knows; for bytes the type makes no difference.
-    const std::string known =
-        std::string("data:application/octet-stream;base64,").append(uri.substr(comma + 1));
-    std::vector<unsigned char> bytes;
-    std::string mediaType;
-    if (!tinygltf::DecodeDataURI(&bytes, mediaType, known, 0, false))
-        throw Error("its data URI cannot be decoded");
-    return {bytes.begin(), bytes.end()};
-}
-
-bool hasScheme(std::string_view uri) {
-    const size_t colon = uri.find(':');
-    return colon != std::string_view::npos && colon > 0 && std::isalpha(static_cast<unsigned char>(uri[0])) &&
-           std::all_of(uri.begin(), uri.begin() + static_cast<std::ptrdiff_t>(colon),
-                       [](unsigned char c) { return std::isalnum(c) || c == '+' || c == '-' || c == '.'; });
-}
-
-// The file that a relative URI means. Links are followed before the folder is compared.
-std::filesystem::path fileInFolder(std::string_view uri, const GltfSource& source) {
-    if (!source.folder)
-        throw Error("an embedded scene cannot refer to files");
-    if (hasScheme(uri))
-        throw Error("only files beside the scene are read, no other addresses");
-    const std::string name = percentDecoded(uri);
-    if (name.empty() || name.find('\0') != std::string::npos)
-        throw Error("that is not a file name");
-    const std::filesystem::path relative(name);
-    if (relative.is_absolute())
-        throw Error("absolute paths are not read, only files beside the scene");
-    std::error_code code;
-    const auto folder = std::filesystem::canonical(source.folder->empty() ? "." : *source.folder, code);
-    const auto file = std::filesystem::weakly_canonical(folder / relative, code);
-    const auto outside = std::mismatch(folder.begin(), folder.end(), file.begin(), file.end());
-    if (code || outside.first != folder.end())
-        throw Error("it lies outside the scene's folder, which is not read");
-    return file;
-}
 
 std::string loadBuffer(const nlohmann::json& buffer, std::string_view binary, const GltfSource& source) {
     const auto uri = buffer.find("uri");
@@ -92,10 +26,6 @@ std::string nameOf(const nlohmann::json& buffer) {
 }
 
 } // namespace
-
-std::string loadUri(std::string_view uri, const GltfSource& source) {
-    return uri.starts_with("data:") ? decodeDataUri(uri) : readFile(fileInFolder(uri, source));
-}
 
 std::vector<GltfBuffer> loadBuffers(const nlohmann::json& json, std::string_view binary,
                                     const GltfSource& source) {

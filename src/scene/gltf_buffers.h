@@ -1,21 +1,15 @@
 // Loads the bytes that a glTF file's buffers refer to.
 #pragma once
 
-#include <filesystem>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include <nlohmann/json_fwd.hpp>
 
-namespace lavalight {
+#include "scene/gltf_uri.h"
 
-// Where a file's own words come from and what it may reach.
-struct GltfSource {
-    std::string name;                            // for messages
-    std::optional<std::filesystem::path> folder; // of the scene; none: embedded, nothing outside may be read
-};
+namespace lavalight {
 
 struct GltfBuffer {
     size_t byteLength = 0;
@@ -23,14 +17,7 @@ struct GltfBuffer {
         bytes; // byteLength of them, or none: a buffer may be declared without data, for extensions to use
 };
 
-// The bytes of a data URI or of a file in the scene's folder, as the comment below says of buffers. Throws
-// Error, which names neither the scene nor the object.
-[[nodiscard]] std::string loadUri(std::string_view uri, const GltfSource& source);
-
-// Each element of `json`'s "buffers". A buffer is the BIN chunk, a base64
-// data URI, or a regular file inside the scene's folder: a file from somewhere else must not make this
-// program read the user's other files, so absolute paths, schemes and ways out of the folder are refused.
-// Throws Error.
+// Each element of `json`'s "buffers": the BIN chunk, or what its uri means (gltf_uri.h). Throws Error.
 [[nodiscard]] std::vector<GltfBuffer> loadBuffers(const nlohmann::json& json, std::string_view binary,
                                                   const GltfSource& source);
 

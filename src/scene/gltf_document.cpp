@@ -11,12 +11,14 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/memory.h"
 #include "scene/gltf_container.h"
 #include "scene/gltf_draco.h"
 #include "scene/gltf_extensions.h"
 #include "scene/gltf_meshopt.h"
 #include "scene/gltf_schema.h"
 #include "scene/gltf_variants.h"
+#include "scene/scene.h"
 
 namespace lavalight {
 namespace {
@@ -151,6 +153,24 @@ tinygltf::Model parseModel(Json& json, const std::string& source) {
     return model;
 }
 
+// "{}" is an object of two bytes whose structure has a thousand.
+void requireMemoryForObjects(const Json& json, const std::string& source) {
+    constexpr size_t kOverhead = 2; // vectors have room for as many again, and we make structures of our own
+    const auto bytesOf = [&](const char* section, size_t size) {
+        return json.contains(section) ? kOverhead * size * json.at(section).size() : 0;
+    };
+    const uint64_t bytes =
+        bytesOf("accessors", sizeof(tinygltf::Accessor)) +
+        bytesOf("animations", sizeof(tinygltf::Animation)) +
+        bytesOf("bufferViews", sizeof(tinygltf::BufferView)) + bytesOf("cameras", sizeof(tinygltf::Camera)) +
+        bytesOf("materials", sizeof(tinygltf::Material) + sizeof(Material)) +
+        bytesOf("meshes", sizeof(tinygltf::Mesh)) +
+        bytesOf("nodes", sizeof(tinygltf::Node) + sizeof(glm::dmat4)) +
+        bytesOf("scenes", sizeof(tinygltf::Scene)) + bytesOf("skins", sizeof(tinygltf::Skin));
+    if (const std::string shortage = memoryShortage(bytes); !shortage.empty())
+        throw gltfError(source, "its nodes, materials and other objects " + shortage);
+}
+
 // tinygltf leaves out what it cannot read; then indices would point to the wrong objects.
 void requireComplete(const GltfDocument& document, const std::vector<size_t>& primitiveCounts) {
     for (size_t i = 0; i < primitiveCounts.size(); ++i) {
@@ -180,6 +200,7 @@ GltfDocument parseGltf(std::string_view bytes, const GltfSource& source) {
         for (const Json& mesh : json.at("meshes"))
             primitiveCounts.push_back(mesh.at("primitives").size());
     }
+    requireMemoryForObjects(json, source.name);
     document.model = parseModel(json, source.name);
     requireComplete(document, primitiveCounts);
     return document;

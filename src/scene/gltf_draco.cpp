@@ -4,54 +4,19 @@
 
 #include <array>
 #include <cstdint>
-#include <memory>
-#include <optional>
+#include <utility>
 
-#include <draco/compression/decode.h>
-#include <draco/compression/point_cloud/point_cloud_decoder.h>
-#include <draco/core/varint_decoding.h>
-#include <draco/metadata/metadata_decoder.h>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "scene/gltf_draco_stream.h"
 #include "scene/gltf_notes.h"
+#include "scene/scene.h"
 
 namespace lavalight {
 namespace {
 
 using Json = nlohmann::json;
-
-// Draco allocates what the head of a stream states before it reads on. Real streams hold about a triangle a
-// byte; a plane of millions may hold a few dozen.
-constexpr uint64_t kMostTrianglesPerByte = 256;
-
-// The number of triangles that the head of a stream states; Draco reads the same bytes again. Nothing where
-// the head is not one of a mesh of bitstream 2.2, the one that the extension is written for.
-std::optional<uint64_t> statedTriangles(std::string_view bytes) {
-    draco::DecoderBuffer buffer;
-    buffer.Init(bytes.data(), bytes.size());
-    draco::DracoHeader header;
-    if (!draco::PointCloudDecoder::DecodeHeader(&buffer, &header).ok() ||
-        header.encoder_type != draco::TRIANGULAR_MESH || header.version_major != 2 ||
-        header.version_minor != 2)
-        return std::nullopt;
-    buffer.set_bitstream_version(DRACO_BITSTREAM_VERSION(2, 2));
-    if ((header.flags & METADATA_FLAG_MASK) != 0) {
-        draco::GeometryMetadata metadata;
-        if (!draco::MetadataDecoder().DecodeGeometryMetadata(&buffer, &metadata))
-            return std::nullopt;
-    }
-    uint32_t triangles = 0;
-    if (header.encoder_method == draco::MESH_EDGEBREAKER_ENCODING) {
-        uint8_t traversal = 0;
-        uint32_t vertices = 0;
-        if (!buffer.Decode(&traversal) || !draco::DecodeVarint(&vertices, &buffer))
-            return std::nullopt;
-    }
-    if (!draco::DecodeVarint(&triangles, &buffer))
-        return std::nullopt;
-    return triangles;
-}
 
 template <class T>
 void append(std::string& bytes, const T& value) {
@@ -99,15 +64,32 @@ int componentsOf(const Json& accessor) {
 
 // Decodes one primitive; the JSON and the buffers outlive it.
 class PrimitiveDecoder {
+    [[noreturn]] void fail(const std::string& text) const {
+        throw gltfError(source_, fmt::format("{} (KHR_draco_mesh_compression) {}", name_, text));
+    }
+
+    template <class Act>
+    auto naming(const Act& act) const {
+        try {
+            return act();
+        } catch (const Error& error) {
+            fail(error.what());
+        }
+    }
+
   public:
     PrimitiveDecoder(Json& json, std::vector<GltfBuffer>& buffers, std::string name,
                      const std::string& source)
         : json_(json), buffers_(buffers), name_(std::move(name)), source_(source) {}
 
+    // That the stream states, before any is decoded.
+    [[nodiscard]] uint64_t triangles(const Json& primitive) const {
+        return naming([&] { return statedTriangles(streamOf(primitive)); });
+    }
+
     void run(Json& primitive) {
-        const Json extension = primitive["extensions"]["KHR_draco_mesh_compression"];
-        const std::unique_ptr<draco::Mesh> mesh =
-            decode(bytesOfView(extension.at("bufferView").get<size_t>()));
+        const Json extension = extensionOf(primitive);
+        const auto mesh = naming([&] { return decodeDracoStream(streamOf(primitive)); });
         view_ = json_["bufferViews"].size();
         for (const auto& [attribute, id] : extension.at("attributes").items()) {
             if (primitive["attributes"].contains(attribute))
@@ -120,30 +102,16 @@ class PrimitiveDecoder {
     }
 
   private:
-    [[noreturn]] void fail(const std::string& text) const {
-        throw gltfError(source_, fmt::format("{} (KHR_draco_mesh_compression) {}", name_, text));
+    [[nodiscard]] static const Json& extensionOf(const Json& primitive) {
+        return primitive.at("extensions").at("KHR_draco_mesh_compression");
     }
 
-    [[nodiscard]] std::string_view bytesOfView(size_t index) const {
+    [[nodiscard]] std::string_view streamOf(const Json& primitive) const {
+        const auto index = extensionOf(primitive).at("bufferView").get<size_t>();
         const Json& view = json_["bufferViews"][index];
         const BufferRange range{view.at("buffer").get<size_t>(), view.value("byteOffset", size_t{0}),
                                 view.at("byteLength").get<size_t>()};
         return bytesOf(buffers_, range, describe("buffer view", index, ""), source_);
-    }
-
-    [[nodiscard]] std::unique_ptr<draco::Mesh> decode(std::string_view stream) const {
-        const std::optional<uint64_t> triangles = statedTriangles(stream);
-        if (!triangles)
-            fail("is damaged: its stream does not begin as a mesh of Draco's bitstream 2.2");
-        if (*triangles > kMostTrianglesPerByte * stream.size())
-            fail(fmt::format("is damaged: its stream states {} triangles in {} bytes", *triangles,
-                             stream.size()));
-        draco::DecoderBuffer buffer;
-        buffer.Init(stream.data(), stream.size());
-        auto decoded = draco::Decoder().DecodeMeshFromBuffer(&buffer);
-        if (!decoded.ok())
-            fail(fmt::format("cannot be decoded: {}", decoded.status().error_msg_string()));
-        return std::move(decoded).value();
     }
 
     // Replaces the accessor's number by that of a new one with the decoded values: others may use the old
@@ -193,6 +161,8 @@ class PrimitiveDecoder {
 void decodeDraco(Json& json, std::vector<GltfBuffer>& buffers, const std::string& source) {
     if (!json.contains("meshes") || !json.contains("bufferViews") || !json.contains("accessors"))
         return;
+    std::vector<std::pair<PrimitiveDecoder, Json*>> compressed;
+    uint64_t triangles = 0; // several primitives may name one stream
     Json& meshes = json["meshes"];
     for (size_t i = 0; i < meshes.size(); ++i) {
         for (Json& primitive : meshes[i]["primitives"]) {
@@ -200,9 +170,17 @@ void decodeDraco(Json& json, std::vector<GltfBuffer>& buffers, const std::string
                 !primitive["extensions"].contains("KHR_draco_mesh_compression"))
                 continue;
             const std::string name = describe("mesh", i, meshes[i].value("name", ""));
-            PrimitiveDecoder(json, buffers, name, source).run(primitive);
+            compressed.emplace_back(PrimitiveDecoder(json, buffers, name, source), &primitive);
+            triangles += compressed.back().first.triangles(primitive);
         }
     }
+    if (triangles > kMostTriangles)
+        throw gltfError(source,
+                        fmt::format("its streams of KHR_draco_mesh_compression state {} triangles, at "
+                                    "most {} are supported",
+                                    triangles, kMostTriangles));
+    for (auto& [decoder, primitive] : compressed)
+        decoder.run(*primitive);
 }
 
 } // namespace lavalight

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/memory.h"
 #include "scene/gltf_notes.h"
 #include "scene/gltf_texture.h"
 
@@ -14,10 +15,14 @@ using Json = nlohmann::json;
 std::string bytesOfView(const Json& json, size_t view, const std::vector<GltfBuffer>& buffers,
                         const std::string& source) {
     const Json& range = json.at("bufferViews").at(view);
-    return std::string(bytesOf(buffers,
-                               {range.at("buffer").get<size_t>(), range.value("byteOffset", size_t{0}),
-                                range.at("byteLength").get<size_t>()},
-                               describe("bufferView", view, ""), source));
+    const std::string_view bytes =
+        bytesOf(buffers,
+                {range.at("buffer").get<size_t>(), range.value("byteOffset", size_t{0}),
+                 range.at("byteLength").get<size_t>()},
+                describe("bufferView", view, ""), source);
+    if (const std::string shortage = memoryShortage(bytes.size()); !shortage.empty())
+        throw Error("its bytes " + shortage);
+    return std::string(bytes);
 }
 
 GltfImage loadImage(const Json& json, size_t index, const std::vector<GltfBuffer>& buffers,

@@ -112,11 +112,11 @@ Scene import(const GltfSource& source, std::string_view bytes, const ImportOptio
 } // namespace
 
 Scene importGltf(const std::filesystem::path& path, const ImportOptions& options) {
-    return import({path.string(), path.parent_path()}, readFile(path), options);
+    return import({path.string(), path.parent_path(), options.allowsExternal}, readFile(path), options);
 }
 
 Scene importGltf(const std::string& name, std::string_view bytes, const ImportOptions& options) {
-    return import({name, std::nullopt}, bytes, options);
+    return import({name, std::nullopt, false}, bytes, options);
 }
 
 } // namespace lavalight

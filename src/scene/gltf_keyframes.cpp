@@ -26,8 +26,26 @@ glm::dvec4 slerp(const glm::dvec4& a, const glm::dvec4& b, double t) {
 
 } // namespace
 
+const std::vector<float>& KeyTimes::of(int accessor) {
+    const auto known = times_.find(accessor);
+    if (known != times_.end())
+        return known->second;
+    const AccessorView input(document_, accessor);
+    if (!input.isScalar())
+        throw document_.error(input.name() + " is used as times of keys and must be a SCALAR");
+    std::vector<float> times;
+    for (size_t i = 0; i < input.count(); ++i) {
+        times.push_back(input.scalarAt(i));
+        if (i > 0 && !(times[i - 1] <= times[i]))
+            throw document_.error(
+                fmt::format("{} is used as times of keys, which must ascend, but {} follows {}", input.name(),
+                            times[i], times[i - 1]));
+    }
+    return times_.emplace(accessor, std::move(times)).first->second;
+}
+
 Keyframes::Keyframes(const GltfDocument& document, const tinygltf::AnimationSampler& sampler,
-                     const std::string& path)
+                     const std::string& path, KeyTimes& times)
     : output_(document, sampler.output), path_(path) {
     if (sampler.interpolation == "STEP")
         interpolation_ = Interpolation::step;
@@ -36,20 +54,8 @@ Keyframes::Keyframes(const GltfDocument& document, const tinygltf::AnimationSamp
     else if (!sampler.interpolation.empty() && sampler.interpolation != "LINEAR")
         throw document.error(fmt::format("an animation's interpolation is \"{}\", which glTF does not know",
                                          sampler.interpolation));
-    checkTimes(document, AccessorView(document, sampler.input));
+    times_ = times.of(sampler.input);
     checkValues(document);
-}
-
-void Keyframes::checkTimes(const GltfDocument& document, const AccessorView& input) {
-    if (!input.isScalar())
-        throw document.error(input.name() + " is used as times of keys and must be a SCALAR");
-    for (size_t i = 0; i < input.count(); ++i) {
-        times_.push_back(input.scalarAt(i));
-        if (i > 0 && !(times_[i - 1] <= times_[i]))
-            throw document.error(
-                fmt::format("{} is used as times of keys, which must ascend, but {} follows {}", input.name(),
-                            times_[i], times_[i - 1]));
-    }
 }
 
 void Keyframes::checkValues(const GltfDocument& document) {

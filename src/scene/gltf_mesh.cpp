@@ -1,10 +1,14 @@
 // Primitives of glTF meshes (glTF 2.0 specification, section 3.7.2).
 #include "scene/gltf_mesh.h"
 
+#include <algorithm>
+#include <map>
 #include <optional>
+#include <string>
 
 #include <fmt/format.h>
 
+#include "base/memory.h"
 #include "scene/gltf_instancing.h"
 #include "scene/gltf_morph.h"
 #include "scene/gltf_skin.h"
@@ -30,22 +34,56 @@ MeshInstances groupByMesh(const GltfDocument& document, const std::vector<Placed
     return instances;
 }
 
+// What is drawn, in numbers whose products may overflow integers.
+struct Extent {
+    double triangles = 0.0;
+    double bytes = 0.0; // of meshes in world space, at most
+
+    Extent& operator+=(const Extent& other) {
+        triangles += other.triangles;
+        bytes += other.bytes;
+        return *this;
+    }
+    [[nodiscard]] Extent times(double count) const { return {count * triangles, count * bytes}; }
+};
+
+Extent extentOf(const GltfDocument& document, const tinygltf::Primitive& primitive) {
+    const auto triangles = static_cast<double>(triangleCount(primitive, document));
+    if (triangles == 0.0)
+        return {};
+    size_t vertexBytes = sizeof(glm::vec3) + sizeof(glm::vec4); // a position, and a tangent that is generated
+    for (const auto& [attribute, accessor] : primitive.attributes) {
+        vertexBytes += attribute == "NORMAL" ? sizeof(glm::vec3) : 0;
+        vertexBytes += attribute == "COLOR_0" ? sizeof(glm::vec4) : 0;
+        vertexBytes += attribute.starts_with("TEXCOORD_") ? sizeof(glm::vec2) : 0;
+    }
+    const size_t vertices =
+        document.model.accessors.at(static_cast<size_t>(primitive.attributes.at("POSITION"))).count;
+    const double used = std::min(3.0 * triangles, static_cast<double>(vertices));
+    constexpr double kAllocations = 128.0; // of a mesh, and its name
+    return {triangles, sizeof(Mesh) + kAllocations + used * static_cast<double>(vertexBytes) +
+                           triangles * sizeof(glm::uvec3)};
+}
+
 // Instances multiply: a small file may ask for more than any memory holds.
 void requireFitting(const GltfDocument& document, const MeshInstances& instances) {
-    double total = 0.0; // of products that may overflow integers
+    Extent total;
     for (size_t i = 0; i < instances.size(); ++i) {
-        double ofMesh = 0.0;
+        Extent ofMesh;
         for (const tinygltf::Primitive& primitive : document.model.meshes[i].primitives)
-            ofMesh += static_cast<double>(triangleCount(primitive, document));
+            ofMesh += extentOf(document, primitive);
         for (const PlacedNode* placed : instances[i]) {
             const tinygltf::Node& node = document.model.nodes[static_cast<size_t>(placed->node)];
-            total += ofMesh * static_cast<double>(instanceCount(document, node));
+            total += ofMesh.times(static_cast<double>(instanceCount(document, node)));
         }
     }
-    if (total > static_cast<double>(kMostTriangles))
+    if (total.triangles > static_cast<double>(kMostTriangles))
         throw document.error(
-            fmt::format("it draws {:.0f} triangles, at most {} are supported: simplify the scene", total,
-                        kMostTriangles));
+            fmt::format("it draws {:.0f} triangles, at most {} are supported: simplify the scene",
+                        total.triangles, kMostTriangles));
+    if (const std::string shortage = memoryShortage(static_cast<uint64_t>(total.bytes)); !shortage.empty())
+        throw document.error(fmt::format("the {:.0f} triangles that it draws {}: simplify the scene",
+                                         total.triangles, shortage));
 }
 
 void noteUnread(const GltfDocument& document, const tinygltf::Primitive& primitive, const std::string& name,
@@ -142,10 +180,17 @@ class MeshReader {
                           morphWeights(document_, placed.node, tree_.pose), mesh);
         if (!isSkinned)
             return placeInstances(mesh, placed, node);
-        const auto joints = jointTransforms(document_, node.skin, tree_.toWorld);
-        applySkin(document_, local.source, local.vertices, joints, mesh);
+        applySkin(document_, local.source, local.vertices, jointsOf(node.skin), mesh);
         cleanMesh(mesh, counts_);
         keep(std::move(mesh));
+    }
+
+    // Of each skin once: thousands of nodes may share one.
+    const std::vector<glm::dmat4>& jointsOf(int skin) {
+        const auto known = joints_.find(skin);
+        if (known != joints_.end())
+            return known->second;
+        return joints_.emplace(skin, jointTransforms(document_, skin, tree_.toWorld)).first->second;
     }
 
     void placeInstances(const Mesh& local, const PlacedNode& placed, const tinygltf::Node& node) {
@@ -168,6 +213,7 @@ class MeshReader {
     const std::vector<Material>& materials_;
     GltfNotes& notes_;
     BakeCounts counts_;
+    std::map<int, std::vector<glm::dmat4>> joints_; // by skin
     std::vector<Mesh> meshes_;
 };
 

@@ -13,7 +13,7 @@ namespace lavalight {
 // without meshes that have no triangles. All positions are finite and used by a triangle, and every triangle
 // has a normal in single precision; what was dropped or repaired is noted. Meshes whose materials want
 // tangents have them, if they have the uvs. Primitives without a material get the last of `materials`. Throws
-// Error for data that does not fit together, and for more triangles than the renderer could hold.
+// Error for data that does not fit together, and for more triangles than the renderer or memory could hold.
 [[nodiscard]] std::vector<Mesh> readMeshes(const GltfDocument& document, const NodeTree& tree,
                                            const std::vector<Material>& materials, GltfNotes& notes);
 

@@ -10,6 +10,7 @@
 #include <meshoptimizer.h>
 #include <nlohmann/json.hpp>
 
+#include "base/memory.h"
 #include "scene/gltf_notes.h"
 
 namespace lavalight {
@@ -130,6 +131,8 @@ void decodeView(Json& view, const std::string& name, std::vector<GltfBuffer>& bu
                                     "does not fit its {} compressed and {} decoded bytes",
                                     where, stream.count, stream.stride, stream.mode, stream.filter,
                                     stream.bytes.size(), length));
+    if (const std::string shortage = memoryShortage(length); !shortage.empty())
+        throw gltfError(source, fmt::format("the {} decoded bytes of {} {}", length, where, shortage));
     std::string bytes(length, '\0');
     if (!decode(stream, bytes))
         throw gltfError(source, where + " is damaged: it cannot be decoded");

@@ -42,11 +42,10 @@ std::string describe(std::string_view kind, size_t index, std::string_view name)
 }
 
 void GltfNotes::addObject(std::string_view finding, std::string_view object) {
-    auto group = std::find_if(groups_.begin(), groups_.end(),
-                              [&](const Group& other) { return other.finding == finding; });
-    if (group == groups_.end())
-        group = groups_.insert(groups_.end(), Group{std::string(finding), {}});
-    auto& objects = group->objects;
+    const auto [number, isNew] = numbers_.try_emplace(std::string(finding), groups_.size());
+    if (isNew)
+        groups_.push_back({std::string(finding), {}});
+    auto& objects = groups_[number->second].objects;
     if (!object.empty() && (objects.empty() || objects.back() != object))
         objects.emplace_back(object);
 }

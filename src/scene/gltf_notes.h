@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include "base/error.h"
@@ -36,6 +37,7 @@ class GltfNotes {
         std::vector<std::string> objects;
     };
     std::vector<Group> groups_;
+    std::unordered_map<std::string, size_t> numbers_; // of groups, by finding: files may bring thousands
 };
 
 } // namespace lavalight

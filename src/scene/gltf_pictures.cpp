@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "base/memory.h"
+
 namespace lavalight {
 namespace {
 
@@ -31,6 +33,35 @@ void decode(const GltfDocument& document, Job& job) {
     } catch (const std::bad_alloc&) {
         job.problem = "the memory does not suffice";
     }
+}
+
+// Those that cannot be read say so when they are decoded.
+uint64_t bytesOf(const GltfImage& image) {
+    if (!image.problem.empty())
+        return 0;
+    try {
+        return measurePicture(image.bytes).bytes();
+    } catch (const Error&) {
+        return 0;
+    }
+}
+
+// A few bytes of a file may stand for a picture of one colour as large as it likes.
+void requireFitting(const GltfDocument& document, const std::vector<Job>& jobs) {
+    constexpr uint64_t kWorkspace = 3; // decoders hold a picture as it is stored, as RGBA, and with 16 bits
+    uint64_t total = 0;
+    uint64_t largest = 0;
+    for (const Job& job : jobs) {
+        const uint64_t bytes = bytesOf(document.images[job.image]);
+        total += bytes;
+        largest = std::max(largest, bytes);
+    }
+    if (total > kMostPictureBytes)
+        throw document.error(
+            fmt::format("its pictures take {} MiB, at most {} are supported: scale them down", total >> 20u,
+                        kMostPictureBytes >> 20u));
+    if (const std::string shortage = memoryShortage(total + kWorkspace * largest); !shortage.empty())
+        throw document.error(fmt::format("its pictures {}: scale them down", shortage));
 }
 
 void decodeAll(const GltfDocument& document, std::vector<Job>& jobs) {
@@ -66,6 +97,7 @@ std::vector<Job> jobsOf(const std::vector<Material>& materials) {
 std::vector<Picture> readPictures(const GltfDocument& document, std::vector<Material>& materials,
                                   GltfNotes& notes) {
     std::vector<Job> jobs = jobsOf(materials);
+    requireFitting(document, jobs);
     decodeAll(document, jobs);
     std::vector<Picture> pictures;
     std::map<size_t, uint32_t> numbers; // of pictures, by image

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/memory.h"
 #include "scene/gltf_notes.h"
 #include "scene/gltf_schema_rules.h"
 
@@ -19,8 +20,15 @@ using Json = nlohmann::json;
 // Real files stay below 20. The parsers and walkers behind this check recurse once per level.
 constexpr size_t kDeepestNesting = 200;
 
-void checkNesting(std::string_view text, const std::string& source) {
+// Bytes that a value takes while it is read: in two documents, ours and tinygltf's, and in the text between
+// them.
+// "[[],[],[]]" has a value in three bytes, each a list of its own.
+constexpr uint64_t kBytesPerValue = 192;
+
+// Before any of it is parsed.
+void requireParsable(std::string_view text, const std::string& source) {
     size_t depth = 0;
+    uint64_t values = 1;
     bool inString = false;
     for (size_t i = 0; i < text.size(); ++i) {
         const char c = text[i];
@@ -32,13 +40,19 @@ void checkNesting(std::string_view text, const std::string& source) {
         } else if (c == '"') {
             inString = true;
         } else if (c == '{' || c == '[') {
+            ++values;
             if (++depth > kDeepestNesting)
                 throw gltfError(source,
                                 fmt::format("the JSON is nested deeper than {} levels", kDeepestNesting));
+        } else if (c == ',') {
+            ++values;
         } else if ((c == '}' || c == ']') && depth > 0) {
             --depth;
         }
     }
+    const std::string shortage = memoryShortage(values * kBytesPerValue + 3 * text.size());
+    if (!shortage.empty())
+        throw gltfError(source, fmt::format("the {} values of its JSON {}", values, shortage));
 }
 
 class SchemaCheck {
@@ -211,7 +225,7 @@ class SchemaCheck {
 } // namespace
 
 Json parseCheckedJson(std::string_view text, const std::string& source) {
-    checkNesting(text, source);
+    requireParsable(text, source);
     Json root;
     try {
         root = Json::parse(text);

@@ -18,20 +18,38 @@ void select(std::vector<T>& values, const std::vector<uint32_t>& order) {
     values = std::move(selected);
 }
 
+std::vector<uint32_t> compactBySorting(std::vector<glm::uvec3>& triangles) {
+    std::vector<uint32_t> used;
+    used.reserve(3 * triangles.size());
+    for (const glm::uvec3& t : triangles)
+        used.insert(used.end(), {t.x, t.y, t.z});
+    std::sort(used.begin(), used.end());
+    used.erase(std::unique(used.begin(), used.end()), used.end());
+    const auto numberOf = [&](uint32_t index) {
+        return static_cast<uint32_t>(std::lower_bound(used.begin(), used.end(), index) - used.begin());
+    };
+    for (glm::uvec3& t : triangles)
+        t = {numberOf(t.x), numberOf(t.y), numberOf(t.z)};
+    return used;
+}
+
 } // namespace
 
 std::vector<uint32_t> compactIndices(std::vector<glm::uvec3>& triangles) {
-    std::vector<uint32_t> used;
     if (triangles.empty())
-        return used;
+        return {};
     uint32_t lowest = std::numeric_limits<uint32_t>::max();
     uint32_t highest = 0;
     for (const glm::uvec3& t : triangles) {
         lowest = std::min({lowest, t.x, t.y, t.z});
         highest = std::max({highest, t.x, t.y, t.z});
     }
-    // Many primitives may share one large accessor, each with a range of its own: only the range is looked
-    // at.
+    // Many primitives may share one large accessor: each costs what it uses of that, or what lies in its
+    // range where that is little more.
+    constexpr size_t kSparse = 64; // indices for each that is used; sorting takes about as long there
+    if ((highest - lowest) / kSparse > 3 * triangles.size())
+        return compactBySorting(triangles);
+    std::vector<uint32_t> used;
     std::vector<uint32_t> numbers(size_t{highest - lowest} + 1, 0);
     for (const glm::uvec3& t : triangles) {
         for (int corner = 0; corner < 3; ++corner)

@@ -171,6 +171,9 @@ struct Bounds {
 // buffers have on the devices we know.
 constexpr uint64_t kMostTriangles = 134'217'728 / 3;
 
+// The most bytes of all pictures of a scene, which share one texel buffer.
+constexpr uint64_t kMostPictureBytes = uint64_t{134'217'728} * 16;
+
 // Metres from the origin in each coordinate. Squares of distances up to here, which bounds and falloff need,
 // stay finite in single precision.
 constexpr float kLargestPosition = 1e18f;

@@ -192,7 +192,7 @@ void Viewer::takeDrops() {
             view_.settings.environment.reset();
             reload();
         } else {
-            loader_.order({path, {}, view_.settings});
+            loader_.order({path, {.allowsExternal = view_.import.allowsExternal}, view_.settings});
         }
     }
 }

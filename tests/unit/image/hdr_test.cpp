@@ -85,9 +85,25 @@ TEST_F(HdrTest, WhatIsNoWholeMapIsRefused) {
     expectRefusal("#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n-Y 1 +X 1\n" + texel(1, 0, 0, 1), "RGBE");
     expectRefusal(kHead + "EXPOSURE=0\n\n-Y 1 +X 1\n" + texel(1, 0, 0, 1), "exposure");
     expectRefusal(kHead + "\n-Y 1 +X 2\n" + texel(1, 1, 1, 1) + texel(0, 0, 0, 1), "leaves its row");
-    expectRefusal(kHead + "\n-Y 1 +X 8\n" + std::string{2, 2, 0, 8, static_cast<char>(128 + 9), 1},
+    const std::string rest(8, '\1');
+    expectRefusal(kHead + "\n-Y 1 +X 8\n" + std::string{2, 2, 0, 8, static_cast<char>(128 + 9), 1} + rest,
                   "leaves its row");
-    expectRefusal(kHead + "\n-Y 1 +X 8\n" + std::string{2, 2, 0, 9, 8, 1}, "claims 9 pixels of 8");
+    expectRefusal(kHead + "\n-Y 1 +X 8\n" + std::string{2, 2, 0, 9, 8, 1} + rest, "claims 9 pixels of 8");
+}
+
+// Before 1.6 GB are taken, and before 3.2 GB are decoded that no environment can use.
+TEST_F(HdrTest, PixelsThatCannotBeInTheFileAndImagesBeyondTheLimitAreRefusedByTheHeader) {
+    expectRefusal(kHead + "\n-Y 8192 +X 16384\n" + std::string(8192 * 12 - 1, '\1'),
+                  "ends within its pixels");
+    writeFileAtomically(folder_ / "map.hdr", kHead + "\n-Y 16384 +X 16384\n" + std::string(16384 * 12, '\1'));
+    try {
+        (void)readHdr(folder_ / "map.hdr", 1u << 27);
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("it has 16384 x 16384 pixels; the limit is 134217728"),
+                  std::string::npos)
+            << error.what();
+    }
 }
 
 } // namespace

@@ -1,43 +1,10 @@
-// Tests of damaged, hostile and misplaced files: one line each, with the file's name, and never a crash.
-#include <filesystem>
-#include <fstream>
-
+// Tests of damaged and hostile files: one line each, with the file's name, and never a crash.
 #include <gtest/gtest.h>
 
-#include "support/temporary_folder.h"
-#include "unit/scene/gltf_builder.h"
+#include "unit/scene/gltf_errors.h"
 
 namespace lavalight::test {
 namespace {
-
-// The error must be one line that names the file and contains `text`.
-void expectError(const std::string& error, const std::string& file, const std::string& text) {
-    EXPECT_NE(error.find(text), std::string::npos) << "got: \"" << error << "\", wanted: " << text;
-    EXPECT_NE(error.find(file), std::string::npos) << error;
-    EXPECT_EQ(error.find('\n'), std::string::npos) << error;
-}
-
-void expectError(const GltfBuilder& builder, const std::string& text) {
-    expectError(importError(builder), "test.glb", text);
-}
-
-std::string fileError(const std::filesystem::path& path) {
-    try {
-        static_cast<void>(importGltf(path));
-    } catch (const Error& error) {
-        return error.what();
-    }
-    return {};
-}
-
-GltfBuilder goodFile() {
-    GltfBuilder builder;
-    const int positions = builder.addVec3({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
-    const int indices = builder.addIndices<uint16_t>({0, 1, 2}, kUnsignedShort);
-    builder.addNode(
-        {{"mesh", builder.addMesh({{"attributes", {{"POSITION", positions}}}, {"indices", indices}})}});
-    return builder;
-}
 
 // The same file with one value changed.
 void expectErrorAfter(const char* pointer, const Json& value, const std::string& text) {
@@ -191,97 +158,6 @@ TEST(BrokenGltf, NamesWithLineBreaksStayOnOneLine) {
     builder.json["accessors"][0]["name"] = "two\nlines";
     builder.json["accessors"][0]["count"] = 4;
     expectError(builder, "\"two lines\"");
-}
-
-// Files on disk.
-class GltfFiles : public ::testing::Test {
-  protected:
-    std::filesystem::path write(const std::string& name, const std::string& bytes) {
-        std::filesystem::create_directories((folder_ / name).parent_path());
-        std::ofstream(folder_ / name, std::ios::binary) << bytes;
-        return folder_ / name;
-    }
-
-    // A .gltf whose positions lie in the buffer `uri`.
-    std::filesystem::path writeGltf(const std::string& name, const std::string& uri, size_t byteLength = 36) {
-        Json json = {
-            {"asset", {{"version", "2.0"}}},
-            {"buffers", {{{"byteLength", byteLength}, {"uri", uri}}}},
-            {"bufferViews", {{{"buffer", 0}, {"byteLength", 36}}}},
-            {"accessors", {{{"bufferView", 0}, {"componentType", kFloat}, {"count", 3}, {"type", "VEC3"}}}},
-            {"meshes", {{{"primitives", {{{"attributes", {{"POSITION", 0}}}}}}}}},
-            {"nodes", {{{"mesh", 0}}}}};
-        return write(name, json.dump());
-    }
-
-    [[nodiscard]] static std::string triangleBytes() {
-        const std::vector<glm::vec3> corners = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-        return {reinterpret_cast<const char*>(corners.data()), 36};
-    }
-
-    TemporaryFolder folder_;
-};
-
-TEST_F(GltfFiles, BuffersBesideTheSceneAndInFoldersBelowAreRead) {
-    write("a b.bin", triangleBytes());
-    write("sub/c.bin", triangleBytes() + "padding");
-    EXPECT_EQ(importGltf(writeGltf("one.gltf", "a%20b.bin")).triangleCount(), 1u);
-    EXPECT_EQ(importGltf(writeGltf("two.gltf", "sub/../sub/c.bin")).triangleCount(), 1u);
-}
-
-TEST_F(GltfFiles, DataUrisAreRead) {
-    const std::string data = "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA";
-    for (const char* type : {"application/octet-stream", "application/gltf-buffer", ""}) {
-        const auto path = writeGltf("data.gltf", "data:" + std::string(type) + ";base64," + data);
-        EXPECT_EQ(importGltf(path).triangleCount(), 1u) << type;
-    }
-    expectError(fileError(writeGltf("short.gltf", "data:;base64," + data, 100)), "short.gltf",
-                "buffer 0 holds 36 bytes, its byteLength is 100");
-}
-
-TEST_F(GltfFiles, ContentDecidesNotTheExtension) {
-    const std::string bytes = goodFile().glb();
-    EXPECT_EQ(importGltf(write("really.gltf", bytes)).triangleCount(), 1u);
-    write("x.bin", triangleBytes());
-    EXPECT_EQ(importGltf(writeGltf("really.glb", "x.bin")).triangleCount(), 1u);
-    expectError(fileError(write("text.glb", "no scene")), "text.glb", "neither");
-}
-
-TEST_F(GltfFiles, MissingFileFolderAndEmptyFileAreNamed) {
-    expectError(fileError(folder_ / "none.gltf"), "none.gltf", "no such file");
-    expectError(fileError(folder_.path()), folder_.path().string(), "directory");
-    expectError(fileError(write("empty.gltf", "")), "empty.gltf", "empty");
-}
-
-TEST_F(GltfFiles, MissingShortAndUnreadableBuffersAreNamed) {
-    write("short.bin", "1234");
-    std::filesystem::create_directory(folder_ / "folder.bin");
-    expectError(fileError(writeGltf("a.gltf", "gone.bin")), "a.gltf", "gone.bin: no such file");
-    expectError(fileError(writeGltf("b.gltf", "short.bin")), "b.gltf",
-                "buffer 0 \"short.bin\" holds 4 bytes, its byteLength is 36");
-    expectError(fileError(writeGltf("c.gltf", "folder.bin")), "c.gltf", "directory");
-    expectError(fileError(writeGltf("d.gltf", "")), "d.gltf", "not a file name");
-}
-
-TEST_F(GltfFiles, NothingOutsideTheScenesFolderIsRead) {
-    write("secret.bin", triangleBytes());
-    std::filesystem::create_directory(folder_ / "scene");
-    std::filesystem::create_symlink(folder_ / "secret.bin", folder_ / "scene/link.bin");
-    const std::string absolute = (folder_ / "secret.bin").string();
-    expectError(fileError(writeGltf("scene/a.gltf", "../secret.bin")), "a.gltf",
-                "outside the scene's folder");
-    expectError(fileError(writeGltf("scene/b.gltf", "%2e%2e/secret.bin")), "b.gltf", "outside");
-    expectError(fileError(writeGltf("scene/c.gltf", absolute)), "c.gltf", "absolute paths are not read");
-    expectError(fileError(writeGltf("scene/d.gltf", "file://" + absolute)), "d.gltf", "no other addresses");
-    expectError(fileError(writeGltf("scene/e.gltf", "http://host/x.bin")), "e.gltf", "no other addresses");
-    expectError(fileError(writeGltf("scene/f.gltf", "link.bin")), "f.gltf", "outside");
-    expectError(fileError(writeGltf("scene/g.gltf", "/dev/zero")), "g.gltf", "absolute");
-}
-
-TEST_F(GltfFiles, BytesInMemoryCannotReferToFiles) {
-    GltfBuilder builder = goodFile();
-    builder.json["buffers"] = {{{"byteLength", builder.bytes.size()}, {"uri", "x.bin"}}};
-    expectError(builder, "cannot refer to files");
 }
 
 } // namespace

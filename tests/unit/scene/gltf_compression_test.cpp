@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 #include <meshoptimizer.h>
 
+#include "support/memory_limit.h"
 #include "unit/scene/gltf_builder.h"
 
 namespace lavalight::test {
@@ -216,6 +217,64 @@ TEST(GltfDraco, StreamThatClaimsMoreTrianglesThanItCanHoldIsRefusedBeforeTheyAre
     const std::string many("\xFF\xFF\xFF\x7F", 4);
     const std::string error = importError(dracoBuilder(head + many + many + std::string(64, '\0')));
     EXPECT_NE(error.find("states 268435455 triangles in 83 bytes"), std::string::npos) << error;
+}
+
+// A grid whose positions, and attributes of 127 zeros a point, take next to no bytes.
+std::string dracoGrid(uint32_t side, int attributes = 1) {
+    draco::Mesh mesh;
+    const uint32_t points = side * side;
+    mesh.set_num_points(points);
+    const auto add = [&](draco::GeometryAttribute::Type type, int8_t components, draco::DataType data,
+                         int64_t stride) {
+        draco::GeometryAttribute attribute;
+        attribute.Init(type, nullptr, static_cast<uint8_t>(components), data, false, stride, 0);
+        return mesh.attribute(mesh.AddAttribute(attribute, true, points));
+    };
+    draco::PointAttribute* positions = add(draco::GeometryAttribute::POSITION, 3, draco::DT_INT32, 12);
+    for (int i = 0; i < attributes; ++i)
+        std::fill_n(add(draco::GeometryAttribute::GENERIC, 127, draco::DT_INT32, 508)->buffer()->data(),
+                    size_t{508} * points, uint8_t{0});
+    for (uint32_t i = 0; i < points; ++i) {
+        const std::array<int32_t, 3> position{static_cast<int32_t>(i % side), static_cast<int32_t>(i / side),
+                                              0};
+        positions->SetAttributeValue(draco::AttributeValueIndex(i), position.data());
+    }
+    for (uint32_t i = 0; i + side < points; ++i) {
+        if (i % side + 1 == side)
+            continue;
+        using Point = draco::PointIndex;
+        mesh.AddFace({Point(i), Point(i + 1), Point(i + side)});
+        mesh.AddFace({Point(i + 1), Point(i + side + 1), Point(i + side)});
+    }
+    draco::EncoderBuffer buffer;
+    draco::Encoder encoder;
+    EXPECT_TRUE(encoder.EncodeMeshToBuffer(mesh, &buffer).ok());
+    return {buffer.data(), buffer.size()};
+}
+
+TEST(GltfDraco, AttributesThatDoNotFitIntoMemoryAreRefusedBeforeTheyAreMade) {
+    if (!MemoryLimit::isPossible())
+        GTEST_SKIP() << "memory cannot be limited here";
+    const std::string file = dracoBuilder(dracoGrid(300)).glb();
+    const MemoryLimit limit(uint64_t{64} << 20);
+    const std::string error = importError(file);
+    EXPECT_NE(
+        error.find("mesh 0 \"part\" (KHR_draco_mesh_compression) has values which take 89 MiB of memory"),
+        std::string::npos)
+        << error;
+}
+
+TEST(GltfDraco, AttributesBeyondWhatAStreamCanFillAreRefusedBeforeTheyAreMade) {
+    const std::string error = importError(dracoBuilder(dracoGrid(100, 24)));
+    EXPECT_NE(error.find("122040000 bytes of values cannot be in its stream"), std::string::npos) << error;
+}
+
+TEST(GltfDraco, StreamThatManyPrimitivesNameCountsForEach) {
+    GltfBuilder builder = dracoBuilder(dracoGrid(50)); // 4802 triangles
+    Json& primitives = builder.json["meshes"][0]["primitives"];
+    primitives = std::vector<Json>(10'000, Json(primitives[0]));
+    EXPECT_NE(importError(builder).find("state 48020000 triangles, at most 44739242 are supported"),
+              std::string::npos);
 }
 
 TEST(GltfDraco, NoDamagedByteCrashesTheImport) {

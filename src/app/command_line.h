@@ -1,0 +1,33 @@
+// The command line: declares the subcommands, parses, and runs the chosen one.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <ostream>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "app/command.h"
+
+namespace lavalight {
+
+class CommandLine {
+  public:
+    CommandLine();
+    ~CommandLine();
+    CommandLine(const CommandLine&) = delete;
+    CommandLine& operator=(const CommandLine&) = delete;
+
+    // Once. The exit code where help or the version was all that was asked for, which goes to `help`. Throws
+    // UsageError, with the remedy, for what is not understood.
+    [[nodiscard]] std::optional<int> parse(int argc, const char* const* argv, std::ostream& help);
+    // What the chosen command comes to.
+    [[nodiscard]] int run();
+
+  private:
+    std::unique_ptr<CLI::App> app_; // the commands point into it
+    std::vector<std::unique_ptr<Command>> commands_;
+};
+
+} // namespace lavalight

@@ -1,0 +1,25 @@
+// URIs of glTF files: which are followed, and to what.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace lavalight {
+
+// Where a file's own words come from and what it may reach.
+struct GltfSource {
+    std::string name;                            // for messages
+    std::optional<std::filesystem::path> folder; // of the scene; none: embedded, no file may be read
+    bool allowsExternal = false;                 // files outside the folder may be read
+};
+
+// The bytes of a data URI, or of the regular file that a relative URI means. A file from somewhere else must
+// not make this program read the user's other files: one that lies outside the scene's folder, wherever links
+// lead, is refused unless allowed. Addresses with a scheme or a host are always refused, file: among them.
+// Backslashes are slashes, as some exporters on Windows write them. Throws Error, which names neither the
+// scene nor the URI.
+[[nodiscard]] std::string loadUri(std::string_view uri, const GltfSource& source);
+
+} // namespace lavalight

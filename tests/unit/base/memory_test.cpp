@@ -1,0 +1,48 @@
+// Tests of asking for memory before it is taken.
+#include "base/memory.h"
+
+#include <gtest/gtest.h>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "support/memory_limit.h"
+#include "support/temporary_folder.h"
+
+namespace lavalight::test {
+namespace {
+
+constexpr uint64_t kGibibyte = uint64_t{1} << 30;
+
+TEST(Memory, WhatIsThereIsNoShortageAndWhatNoMachineHasIsOne) {
+    EXPECT_GT(availableMemory(), uint64_t{1} << 20);
+    EXPECT_EQ(memoryShortage(1), "");
+    EXPECT_EQ(memoryShortage(availableMemory() / 2), "");
+    EXPECT_TRUE(memoryShortage(uint64_t{1} << 60).starts_with("take 1073741824.0 GiB of memory, "));
+}
+
+TEST(Memory, LimitOfTheProcessCounts) {
+    if (!MemoryLimit::isPossible())
+        GTEST_SKIP() << "memory cannot be limited here";
+    const MemoryLimit limit(kGibibyte / 2);
+    EXPECT_LE(availableMemory(), kGibibyte / 2);
+    EXPECT_EQ(memoryShortage(2 * kGibibyte), "take 2.0 GiB of memory, 512 MiB are available");
+}
+
+// A sparse file of 2^40 bytes takes none of the disk.
+TEST(Memory, FilesBeyondItAreRefusedByTheirSize) {
+    const TemporaryFolder folder;
+    const std::filesystem::path path = folder / "large.bin";
+    writeFileAtomically(path, "x");
+    std::filesystem::resize_file(path, uint64_t{1} << 40);
+    try {
+        (void)readFile(path);
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("large.bin: its bytes take 1024.0 GiB of memory"),
+                  std::string::npos)
+            << error.what();
+    }
+}
+
+} // namespace
+} // namespace lavalight::test
