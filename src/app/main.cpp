@@ -32,7 +32,6 @@
 namespace lavalight {
 namespace {
 
-constexpr int kFailed = 1;
 constexpr int kWrongUsage = 2;
 
 // File names and library messages may hold line breaks; a message is one line.
@@ -61,18 +60,21 @@ std::string usageMessage(const CLI::App& app, const CLI::ParseError& error) {
     return fmt::format("{} (see lavalight --help; commands: {})", message, commandNames(app));
 }
 
+// `failureCode` becomes that of the command, before it runs.
 template <size_t N>
-int runChosen(const CLI::App& app, const std::array<std::unique_ptr<Command>, N>& commands) {
+int runChosen(const CLI::App& app, const std::array<std::unique_ptr<Command>, N>& commands,
+              int& failureCode) {
     const auto command =
         std::find_if(commands.begin(), commands.end(), [](const auto& c) { return c->chosen(); });
     if (command == commands.end()) {
         fmt::print(stderr, "{}", app.help());
         return kWrongUsage;
     }
+    failureCode = (*command)->failureCode();
     return (*command)->run();
 }
 
-int parseAndRun(int argc, char** argv) {
+int parseAndRun(int argc, char** argv, int& failureCode) {
     CLI::App app(
         "Lavalight: a physically based path tracer for glTF 2.0 on any Vulkan device, lavapipe included",
         "lavalight");
@@ -99,7 +101,7 @@ int parseAndRun(int argc, char** argv) {
     } catch (const CLI::ParseError& error) {
         throw UsageError(usageMessage(app, error));
     }
-    return runChosen(app, commands);
+    return runChosen(app, commands, failureCode);
 }
 
 // Results may end on a full disk.
@@ -111,8 +113,9 @@ void requireResultsWritten() {
 
 int run(int argc, char** argv) {
     configureLog(LogLevel::normal);
+    int failureCode = 1;
     try {
-        const int exitCode = parseAndRun(argc, argv);
+        const int exitCode = parseAndRun(argc, argv, failureCode);
         requireResultsWritten();
         return exitCode;
     } catch (const UsageError& error) {
@@ -125,7 +128,7 @@ int run(int argc, char** argv) {
     } catch (const std::exception& error) {
         reportError(fmt::format("unexpected failure: {}", error.what()));
     }
-    return kFailed;
+    return failureCode;
 }
 
 } // namespace
