@@ -11,7 +11,7 @@
 #include "image/flip.h"
 #include "image/image.h"
 #include "image/statistics.h"
-#include "image/welch_test.h"
+#include "image/welch.h"
 
 namespace lavalight {
 

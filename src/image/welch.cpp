@@ -1,4 +1,4 @@
-#include "image/welch_test.h"
+#include "image/welch.h"
 
 #include <algorithm>
 #include <cassert>

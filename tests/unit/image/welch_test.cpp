@@ -1,5 +1,5 @@
 // Noise passes, however few samples tell of it, and what is no noise fails.
-#include "image/welch_test.h"
+#include "image/welch.h"
 
 #include <algorithm>
 #include <limits>
