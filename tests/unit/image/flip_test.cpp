@@ -102,6 +102,23 @@ TEST(Flip, OfNanNegativeAndInfiniteValuesIsANumber) {
 TEST(Flip, OfBlackImagesIsZero) {
     const Image black = constant(5, 4, glm::vec3(0.0f));
     EXPECT_EQ(flipOfRadiance(black, black).mean(), 0.0);
+    EXPECT_EQ(exposureRange(black).count, 2u);
+}
+
+// Exposures and mean by the authors' program, as in tests/references/make_flip_references.py.
+TEST(FlipOfRadiance, OfALitSpotInTheDarkIsThatOfTheAuthorsProgram) {
+    Image reference = constant(32, 32, glm::vec3(0.0f));
+    Image image = reference;
+    for (uint32_t y = 8; y < 12; ++y)
+        for (uint32_t x = 8; x < 12; ++x) {
+            reference.pixels[size_t{y} * 32 + x] = glm::vec3(5.0f);
+            image.pixels[size_t{y} * 32 + x] = glm::vec3(y < 10 ? 6.0f : 5.0f);
+        }
+    const ExposureRange range = exposureRange(reference);
+    EXPECT_NEAR(range.start, -1.23863f, 1e-4f);
+    EXPECT_NEAR(range.stop, 24.0833f, 1e-4f);
+    EXPECT_EQ(range.count, 26u);
+    EXPECT_NEAR(flipOfRadiance(image, reference).mean(), 0.00211462, 1e-6);
 }
 
 TEST(Flip, SizesMustAgree) {
