@@ -64,6 +64,18 @@ std::string heatmapPng(const FlipMap& flip) {
     return encodePng(flip.width, flip.height, pixels);
 }
 
+namespace {
+
+// What the colours of the heat map mean: 0 at the left, 1 at the right.
+std::string scalePng() {
+    FlipMap scale{256, 1, {}};
+    for (int i = 0; i < 256; ++i)
+        scale.errors.push_back(static_cast<float>(i) / 255.0f);
+    return heatmapPng(scale);
+}
+
+} // namespace
+
 std::string reportHtml(const Comparison& comparison, const ComparedImage& image,
                        const ComparedImage& reference) {
     const Json data = {{"version", kVersion},
@@ -72,7 +84,8 @@ std::string reportHtml(const Comparison& comparison, const ComparedImage& image,
                        {"figures", comparisonJson(comparison)},
                        {"metadata", metadataDifferences(image.content.metadata, reference.content.metadata)},
                        {"exposures", exposuresJson(image, reference)},
-                       {"heatmap", dataUri(heatmapPng(comparison.flip))}};
+                       {"heatmap", dataUri(heatmapPng(comparison.flip))},
+                       {"scale", dataUri(scalePng())}};
     // Names and metadata are anybody's bytes: what is not UTF-8 is replaced, and nothing of it can end the
     // script.
     std::string text = data.dump(-1, ' ', true, Json::error_handler_t::replace);

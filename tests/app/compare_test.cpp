@@ -231,6 +231,7 @@ TEST_F(Compare, TheReportIsOneFileThatHoldsImagesAndVerdicts) {
     EXPECT_TRUE(
         data.at("exposures")[1].at("image").get<std::string>().starts_with("data:image/png;base64,iVBOR"));
     EXPECT_TRUE(data.at("heatmap").get<std::string>().starts_with("data:image/png;base64,iVBOR"));
+    EXPECT_TRUE(data.at("scale").get<std::string>().starts_with("data:image/png;base64,iVBOR"));
     EXPECT_EQ(data.at("metadata")[1].at("image"), "</script><b>");
     EXPECT_EQ(page.find("</script><b>"), std::string::npos);
     for (const char* elsewhere : {"http:", "https:", "@import", "<link", "<script src"})
