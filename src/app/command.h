@@ -19,8 +19,11 @@ class Command {
     // Whether the command line named this command.
     [[nodiscard]] bool chosen() const { return parser_.parsed(); }
 
-    // The exit code: 0 done, 1 failed, 130 interrupted. Throws Error (exit 1) or UsageError (exit 2).
+    // The exit code: 0 done, 1 failed, 130 interrupted. Throws Error (exit failureCode()) or UsageError (exit
+    // 2).
     [[nodiscard]] virtual int run() = 0;
+    // The exit code of whatever is thrown.
+    [[nodiscard]] virtual int failureCode() const { return 1; }
 
   protected:
     [[nodiscard]] CLI::App& parser() { return parser_; }

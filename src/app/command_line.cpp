@@ -81,14 +81,22 @@ std::optional<int> CommandLine::parse(int argc, const char* const* argv, std::os
     return std::nullopt;
 }
 
-int CommandLine::run() {
+Command* CommandLine::chosen() const {
     const auto command =
         std::find_if(commands_.begin(), commands_.end(), [](const auto& c) { return c->chosen(); });
-    if (command == commands_.end()) {
-        fmt::print(stderr, "{}", app_->help());
-        return kWrongUsage;
-    }
-    return (*command)->run();
+    return command == commands_.end() ? nullptr : command->get();
+}
+
+int CommandLine::failureCode() const {
+    const Command* command = chosen();
+    return command == nullptr ? kWrongUsage : command->failureCode();
+}
+
+int CommandLine::run() {
+    if (Command* command = chosen())
+        return command->run();
+    fmt::print(stderr, "{}", app_->help());
+    return kWrongUsage;
 }
 
 } // namespace lavalight

@@ -22,10 +22,14 @@ class CommandLine {
     // Once. The exit code where help or the version was all that was asked for, which goes to `help`. Throws
     // UsageError, with the remedy, for what is not understood.
     [[nodiscard]] std::optional<int> parse(int argc, const char* const* argv, std::ostream& help);
+    // The exit code of what run() throws.
+    [[nodiscard]] int failureCode() const;
     // What the chosen command comes to.
     [[nodiscard]] int run();
 
   private:
+    [[nodiscard]] Command* chosen() const; // null: none
+
     std::unique_ptr<CLI::App> app_; // the commands point into it
     std::vector<std::unique_ptr<Command>> commands_;
 };

@@ -1,166 +1,123 @@
 #include "app/compare_command.h"
 
-#include <algorithm>
 #include <charconv>
-#include <cstdio>
-#include <optional>
+#include <functional>
 #include <system_error>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "app/compare_report.h"
+#include "app/comparison_output.h"
+#include "base/file.h"
 #include "base/log.h"
-#include "image/exr.h"
-#include "image/statistics.h"
 
 namespace lavalight {
 namespace {
 
-constexpr float kZLimit = 3.3f; // a standard normal deviate is beyond it once in a thousand times
-constexpr uint32_t kZTileSize =
-    16; // pixels; averages 256 of them: finds biases a sixteenth of what one pixel shows
-constexpr const char* kChannelNames = "RGB";
-
-struct ZTests {
-    std::string varianceFrom; // "both", "image" or "reference"; an image without variance counts as exact
-    ZTest pixels;
-    ZTest tiles;
-    ZTest whole;
-};
-
-struct Comparison {
-    uint32_t width = 0;
-    uint32_t height = 0;
-    double rmse = 0.0;
-    double relMse = 0.0;
-    double trimmedRelMse = 0.0;
-    MeanDifference meanDifference;
-    uint64_t nonFiniteImage = 0;
-    uint64_t nonFiniteReference = 0;
-    std::optional<ZTests> zTests; // absent if neither image has variances
-};
-
-std::optional<ZTests> testNoise(const ExrFile& image, const ExrFile& reference) {
-    if (!image.variance && !reference.variance)
-        return std::nullopt;
-    const Image exact(image.radiance.width, image.radiance.height);
-    const Image& varianceA = image.variance ? *image.variance : exact;
-    const Image& varianceB = reference.variance ? *reference.variance : exact;
-    const auto test = [&](uint32_t tileSize) {
-        return tileZTest(image.radiance, varianceA, reference.radiance, varianceB, tileSize);
-    };
-    const char* from = !reference.variance ? "image" : !image.variance ? "reference" : "both";
-    return ZTests{from, test(1), test(kZTileSize), test(std::max(exact.width, exact.height))};
-}
-
-Comparison compare(const ExrFile& image, const ExrFile& reference) {
-    Comparison result;
-    result.width = image.radiance.width;
-    result.height = image.radiance.height;
-    result.rmse = rmse(image.radiance, reference.radiance);
-    result.relMse = relMse(image.radiance, reference.radiance);
-    result.trimmedRelMse = trimmedRelMse(image.radiance, reference.radiance);
-    result.meanDifference = relativeMeanDifference(image.radiance, reference.radiance);
-    result.nonFiniteImage = countNonFinite(image.radiance);
-    result.nonFiniteReference = countNonFinite(reference.radiance);
-    result.zTests = testNoise(image, reference);
-    return result;
-}
-
-void printZTest(const char* name, const ZTest& test) {
-    fmt::print("  {:<16}{:.3f} % of {} tests below {}; worst {:.2f} at pixel {}, {} in {}\n", name,
-               100.0 * test.fractionBelow(kZLimit), test.absZ.size(), kZLimit, test.maxAbsZ, test.worstTile.x,
-               test.worstTile.y, kChannelNames[test.worstChannel]);
-}
-
-void printText(const Comparison& c) {
-    const glm::dvec3 percent = 100.0 * c.meanDifference.perChannel;
-    fmt::print("size              {} x {}\n", c.width, c.height);
-    fmt::print("RMSE              {:.6g}\n", c.rmse);
-    fmt::print("relMSE            {:.6g}\n", c.relMse);
-    fmt::print("trimmed relMSE    {:.6g} (without the worst 0.1 % of the pixels)\n", c.trimmedRelMse);
-    fmt::print("mean difference   {:+.4f} % (R {:+.4f} %, G {:+.4f} %, B {:+.4f} %)\n",
-               100.0 * c.meanDifference.overall, percent.r, percent.g, percent.b);
-    if (c.nonFiniteImage + c.nonFiniteReference > 0)
-        fmt::print("NaN or infinite   {} pixels of the image, {} of the reference\n", c.nonFiniteImage,
-                   c.nonFiniteReference);
-    if (!c.zTests) {
-        fmt::print("Z-test            none: neither image has variances\n");
-        return;
-    }
-    fmt::print("Z-test            variances of {}\n",
-               c.zTests->varianceFrom == "both" ? "both images"
-                                                : fmt::format("the {} alone", c.zTests->varianceFrom));
-    printZTest("each pixel", c.zTests->pixels);
-    printZTest(fmt::format("{0} x {0} pixels", kZTileSize).c_str(), c.zTests->tiles);
-    printZTest("whole image", c.zTests->whole);
-}
-
-nlohmann::ordered_json zTestJson(const ZTest& test) {
-    return {{"tests", test.absZ.size()},
-            {"fractionBelowLimit", test.fractionBelow(kZLimit)},
-            {"maxAbsZ", test.maxAbsZ},
-            {"worstPixel", {test.worstTile.x, test.worstTile.y}},
-            {"worstChannel", std::string(1, kChannelNames[test.worstChannel])}};
-}
-
-// Infinities and NaN, which JSON lacks, come out as null.
-nlohmann::ordered_json comparisonJson(const Comparison& c) {
-    const glm::dvec3& mean = c.meanDifference.perChannel;
-    nlohmann::ordered_json json = {
-        {"width", c.width},
-        {"height", c.height},
-        {"rmse", c.rmse},
-        {"relMse", c.relMse},
-        {"trimmedRelMse", c.trimmedRelMse},
-        {"meanDifference", {{"overall", c.meanDifference.overall}, {"perChannel", {mean.r, mean.g, mean.b}}}},
-        {"nonFinitePixels", {{"image", c.nonFiniteImage}, {"reference", c.nonFiniteReference}}},
-        {"zTest", nullptr}};
-    if (c.zTests)
-        json["zTest"] = {{"variancesOf", c.zTests->varianceFrom},
-                         {"limit", kZLimit},
-                         {"pixels", zTestJson(c.zTests->pixels)},
-                         {"tiles", zTestJson(c.zTests->tiles)},
-                         {"whole", zTestJson(c.zTests->whole)}};
-    return json;
-}
-
 // CLI11's own range check lets NaN pass.
-std::string refuseUnlessAtLeastZero(const std::string& text) {
-    double value = 0.0;
-    const auto parsed = std::from_chars(text.data(), text.data() + text.size(), value);
-    const bool isNumber = parsed.ec == std::errc() && parsed.ptr == text.data() + text.size();
-    return isNumber && value >= 0.0 ? "" : fmt::format("{} is no number of at least 0", text);
+CLI::Validator numberThat(const std::function<bool(double)>& isMeant, const std::string& range) {
+    return {[isMeant, range](const std::string& text) -> std::string {
+                double value = 0.0;
+                const auto parsed = std::from_chars(text.data(), text.data() + text.size(), value);
+                const bool isNumber = parsed.ec == std::errc() && parsed.ptr == text.data() + text.size();
+                return isNumber && isMeant(value) ? "" : fmt::format("{} is no number {}", text, range);
+            },
+            range};
+}
+
+CLI::Validator atLeastZero() {
+    return numberThat([](double value) { return value >= 0.0; }, "of at least 0");
 }
 
 } // namespace
 
 CompareCommand::CompareCommand(CLI::App& app)
-    : Command(app, "compare", "RMSE, relMSE, mean difference and Z-test of two EXR images of equal size") {
-    parser().add_option("image", image_, "The image in question")->type_name("A.exr")->required();
-    parser().add_option("reference", reference_, "What it should be")->type_name("B.exr")->required();
+    : Command(app, "compare",
+              "Whether an image may pass for its reference: RMSE, relMSE, FLIP, Z-test. Exit code: 0 equal, "
+              "1 different, "
+              "2 wrong usage, 3 could not compare. Without criteria: the Z-test where both images have "
+              "variances, else "
+              "--threshold") {
     parser()
-        .add_option("--threshold", threshold_,
-                    "Exit 1 if relMSE = mean((a - b)^2 / (b^2 + 0.01)) is above this, or NaN")
-        ->check(CLI::Validator(refuseUnlessAtLeastZero, ">= 0"));
+        .add_option("image", image_, "The image in question: EXR (radiance) or PNG")
+        ->type_name("A.exr|A.png")
+        ->default_str("")
+        ->required();
+    parser()
+        .add_option("reference", reference_, "What it should be, of equal size and kind")
+        ->type_name("B.exr|B.png")
+        ->default_str("")
+        ->required();
+    parser().add_flag(
+        "--z-test", isZTested_,
+        "Criterion: noise explains all differences, by the variances of EXR files (Welch's test of each "
+        "pixel, of 16 x 16 pixels, and of the whole image)");
+    parser()
+        .add_option(
+            "--significance", significance_,
+            "Of the Z-test, which it asks for: the share of equal renders that are taken for different")
+        ->check(numberThat([](double value) { return value > 0.0 && value < 1.0; }, "between 0 and 1"));
+    parser()
+        .add_option("--threshold", relMse_,
+                    "Criterion: relMSE = mean((a - b)^2 / (b^2 + 0.01)), of linear values, is at most this")
+        ->check(atLeastZero());
+    parser()
+        .add_option(
+            "--flip-threshold", flip_,
+            "Criterion: mean FLIP (HDR-FLIP of EXR files) is at most this; 0 equal, 1 the largest difference")
+        ->default_str("")
+        ->check(atLeastZero());
+    parser()
+        .add_option("--heatmap", heatmap_,
+                    "Write FLIP of each pixel in colours: black 0, purple, orange, pale yellow 1")
+        ->type_name("OUT.png")
+        ->default_str("");
+    parser()
+        .add_option("--html", html_,
+                    "Write a page with all this and a slider between the images; it needs no network")
+        ->type_name("OUT.html")
+        ->default_str("");
     parser().add_flag("--json", json_, "Print JSON");
 }
 
+Criteria CompareCommand::criteria() {
+    Criteria criteria;
+    if (parser().count("--threshold") > 0)
+        criteria.relMse = relMse_;
+    if (parser().count("--flip-threshold") > 0)
+        criteria.flip = flip_;
+    if (isZTested_ || parser().count("--significance") > 0)
+        criteria.significance = significance_;
+    return criteria;
+}
+
+void CompareCommand::writeFiles(const Comparison& comparison, const ComparedImage& image,
+                                const ComparedImage& reference) const {
+    if (!heatmap_.empty())
+        writeFileAtomically(heatmap_, heatmapPng(comparison.flip));
+    if (!html_.empty())
+        writeFileAtomically(html_, reportHtml(comparison, image, reference));
+}
+
 int CompareCommand::run() {
-    const Comparison comparison = compare(readExr(image_), readExr(reference_));
-    const bool withinThreshold = comparison.relMse <= threshold_; // NaN is not
+    const ComparedImage image = readCompared(image_);
+    const ComparedImage reference = readCompared(reference_);
+    const Comparison comparison = compare(image, reference, criteria());
+    writeFiles(comparison, image, reference);
     if (json_) {
         nlohmann::ordered_json json = comparisonJson(comparison);
-        json["threshold"] = threshold_;
-        json["withinThreshold"] = withinThreshold;
-        fmt::print("{}\n", json.dump(2));
+        json["metadataDifferences"] = metadataDifferences(image.content.metadata, reference.content.metadata);
+        fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
     } else {
-        printText(comparison);
+        fmt::print("{}", comparisonText(comparison));
     }
-    if (!withinThreshold)
-        spdlog::error("relMSE {:.6g} of {} is not within the threshold {}", comparison.relMse, image_,
-                      threshold_);
-    return withinThreshold ? 0 : 1;
+    for (const Verdict& v : comparison.verdicts)
+        if (!v.passed)
+            spdlog::error("{} differs from {}: {} {:.6g}, the limit is {:g}; furthest: {}", image_, reference_,
+                          v.criterion == "Z-test" ? "p of the Z-test is" : v.criterion, v.value, v.limit,
+                          v.where);
+    return comparison.isEqual() ? 0 : 1;
 }
 
 } // namespace lavalight

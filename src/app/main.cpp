@@ -17,7 +17,6 @@
 namespace lavalight {
 namespace {
 
-constexpr int kFailed = 1;
 constexpr int kWrongUsage = 2;
 
 // File names and library messages may hold line breaks; a message is one line.
@@ -27,10 +26,14 @@ void reportError(std::string message) {
     spdlog::error("{}", message);
 }
 
-int parseAndRun(int argc, char** argv) {
+// `failureCode` becomes that of the command, before it runs.
+int parseAndRun(int argc, char** argv, int& failureCode) {
     CommandLine commandLine;
     const std::optional<int> exitCode = commandLine.parse(argc, argv, std::cout);
-    return exitCode ? *exitCode : commandLine.run();
+    if (exitCode)
+        return *exitCode;
+    failureCode = commandLine.failureCode();
+    return commandLine.run();
 }
 
 // Results may end on a full disk.
@@ -41,9 +44,10 @@ void requireResultsWritten() {
 }
 
 int run(int argc, char** argv) {
+    int failureCode = kFailed;
     try {
         configureLog(LogLevel::normal);
-        const int exitCode = parseAndRun(argc, argv);
+        const int exitCode = parseAndRun(argc, argv, failureCode);
         requireResultsWritten();
         return exitCode;
     } catch (const UsageError& error) {
@@ -56,7 +60,7 @@ int run(int argc, char** argv) {
     } catch (const std::exception& error) {
         reportError(fmt::format("unexpected failure: {}", error.what()));
     }
-    return kFailed;
+    return failureCode;
 }
 
 } // namespace

@@ -1,9 +1,6 @@
 #include "image/png.h"
 
 #include <cassert>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <vector>
 
 #include <fmt/format.h>
@@ -30,32 +27,28 @@ std::vector<uint8_t> bytesOf(std::span<const uint32_t> pixels) {
     return bytes;
 }
 
-void appendTo(void* stream, void* data, int size) {
-    static_cast<std::ofstream*>(stream)->write(static_cast<const char*>(data), size);
+void appendTo(void* text, void* data, int size) {
+    static_cast<std::string*>(text)->append(static_cast<const char*>(data), static_cast<size_t>(size));
 }
 
 } // namespace
 
-void writePng(const std::filesystem::path& path, uint32_t width, uint32_t height,
-              std::span<const uint32_t> pixels) {
+std::string encodePng(uint32_t width, uint32_t height, std::span<const uint32_t> pixels) {
     assert(width > 0 && height > 0 && width <= kMaxImageSide && height <= kMaxImageSide);
     assert(pixels.size() == size_t{width} * height);
     const std::vector<uint8_t> bytes = bytesOf(pixels);
     const auto columns = static_cast<int>(width);
     const auto rows = static_cast<int>(height);
-    writeFileAtomically(path, [&](const std::filesystem::path& part) {
-        std::ofstream out(part, std::ios::binary);
-        if (!out)
-            throw Error(fmt::format("cannot write {}: {}", path.string(), std::strerror(errno)));
-        const int encoded = stbi_write_png_to_func(appendTo, &out, columns, rows, kChannels, bytes.data(),
-                                                   columns * kChannels);
-        if (encoded == 0)
-            throw Error(fmt::format("cannot write {}: {} x {} pixels do not fit into memory", path.string(),
-                                    width, height));
-        out.close();
-        if (!out)
-            throw Error(fmt::format("cannot write {}: {}", path.string(), std::strerror(errno)));
-    });
+    std::string encoded;
+    if (stbi_write_png_to_func(appendTo, &encoded, columns, rows, kChannels, bytes.data(),
+                               columns * kChannels) == 0)
+        throw Error(fmt::format("{} x {} pixels do not fit into memory", width, height));
+    return encoded;
+}
+
+void writePng(const std::filesystem::path& path, uint32_t width, uint32_t height,
+              std::span<const uint32_t> pixels) {
+    writeFileAtomically(path, encodePng(width, height, pixels));
 }
 
 } // namespace lavalight

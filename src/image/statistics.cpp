@@ -106,6 +106,22 @@ double trimmedRelMse(const Image& image, const Image& reference) {
     return std::accumulate(worst, errors.end(), 0.0) / static_cast<double>(errors.size() - trimmed);
 }
 
+size_t worstOfRelMse(const Image& image, const Image& reference) {
+    requireSameSize(image, reference);
+    size_t worst = 0;
+    double largest = -1.0;
+    for (size_t i = 0; i < image.pixels.size(); ++i) {
+        const double error = relativeSquaredError(image.pixels[i], reference.pixels[i]);
+        if (std::isnan(error))
+            return i;
+        if (error > largest) {
+            largest = error;
+            worst = i;
+        }
+    }
+    return worst;
+}
+
 MeanDifference relativeMeanDifference(const Image& image, const Image& reference) {
     requireSameSize(image, reference);
     const glm::dvec3 x = sumOfPixels(image);

@@ -25,6 +25,9 @@ namespace lavalight {
 // equal to relMse.
 [[nodiscard]] double trimmedRelMse(const Image& image, const Image& reference);
 
+// The index of the pixel that contributes most to relMse, the first of several; NaN is more than all.
+[[nodiscard]] size_t worstOfRelMse(const Image& image, const Image& reference);
+
 struct MeanDifference {
     glm::dvec3 perChannel{0.0}; // mean(x) / mean(r) - 1 of each channel
     double overall = 0.0;       // the same over all channels together

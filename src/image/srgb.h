@@ -1,0 +1,22 @@
+// sRGB signals and the linear values that they stand for (IEC 61966-2-1:1999).
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace lavalight {
+
+// The linear value in [0, 1] of a signal in [0, 1].
+[[nodiscard]] inline float decodeSrgb(float signal) {
+    return signal <= 0.04045f ? signal / 12.92f : std::pow((signal + 0.055f) / 1.055f, 2.4f);
+}
+
+// The nearest of 256 signals; what lies outside [0, 1] is clamped, NaN is black.
+[[nodiscard]] inline uint32_t encodeSrgb8(float linear) {
+    const float x = linear > 0.0f ? std::min(linear, 1.0f) : 0.0f;
+    const float signal = x <= 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1.0f / 2.4f) - 0.055f;
+    return static_cast<uint32_t>(255.0f * signal + 0.5f);
+}
+
+} // namespace lavalight
