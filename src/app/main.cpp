@@ -17,6 +17,7 @@
 namespace lavalight {
 namespace {
 
+constexpr int kFailed = 1;
 constexpr int kWrongUsage = 2;
 
 // File names and library messages may hold line breaks; a message is one line.
