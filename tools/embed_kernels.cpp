@@ -1,5 +1,4 @@
-// Build step: compiles and optimises kernels and writes them as C++ arrays, found by name through
-// NAMESPACE::find.
+// Build step: compiles kernels and writes them as C++ arrays, found by name through NAMESPACE::find.
 #include <cstdio>
 #include <filesystem>
 #include <string>
@@ -10,7 +9,6 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "gpu/shader_build.h"
-#include "gpu/shader_optimiser.h"
 
 namespace {
 
@@ -66,10 +64,9 @@ std::string branchOf(const gpu::KernelCode& code) {
     for (const gpu::KernelBinding& binding : code.bindings)
         bindings += fmt::format("{{\"{}\", {}, gpu::BindingKind::{}}}, ", binding.name, binding.binding,
                                 nameOf(binding.kind));
-    return fmt::format(
-        "    if (name == \"{0}\")\n"
-        "        return {{\"{0}\", {{std::begin({0}), std::end({0})}}, {{{1}}}, {2}, true}};\n",
-        code.name, bindings, code.pushConstantBytes);
+    return fmt::format("    if (name == \"{0}\")\n"
+                       "        return {{\"{0}\", {{std::begin({0}), std::end({0})}}, {{{1}}}, {2}}};\n",
+                       code.name, bindings, code.pushConstantBytes);
 }
 
 void writeHeader(const Arguments& arguments) {
@@ -86,8 +83,7 @@ void writeSource(const Arguments& arguments) {
     std::string arrays;
     std::string branches;
     for (const std::filesystem::path& file : arguments.files) {
-        gpu::KernelCode code = gpu::compileKernel(file, arguments.includeRoot);
-        code.spirv = gpu::optimised(code.spirv);
+        const gpu::KernelCode code = gpu::compileKernel(file, arguments.includeRoot);
         arrays += arrayOf(code);
         branches += branchOf(code);
     }

@@ -51,7 +51,7 @@ vk::raii::Pipeline makePipeline(const Device& device, const KernelCode& code, vk
     }
     const vk::SpecializationInfo specialisation(static_cast<uint32_t>(entries.size()), entries.data(),
                                                 values.size() * sizeof(uint32_t), values.data());
-    const std::vector<uint32_t> spirv = code.isOptimised ? code.spirv : specialised(code.spirv, constants);
+    const std::vector<uint32_t> spirv = specialised(code.spirv, constants);
     const vk::ShaderModuleCreateInfo moduleInfo({}, spirv);
     const vk::raii::ShaderModule shader(device.handle(), moduleInfo);
     const vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *shader, "main",

@@ -27,7 +27,6 @@ struct KernelCode {
     std::vector<uint32_t> spirv;
     std::vector<KernelBinding> bindings; // ascending binding numbers
     uint32_t pushConstantBytes = 0;
-    bool isOptimised = false; // by the build (shader_optimiser.h)
 };
 
 // layout(constant_id = id) const uint/int/bool/float in the shader; floats as their bits.

@@ -28,10 +28,6 @@ std::vector<uint32_t> run(const std::vector<uint32_t>& spirv, const RegisterPass
 
 } // namespace
 
-std::vector<uint32_t> optimised(const std::vector<uint32_t>& spirv) {
-    return run(spirv, [](spvtools::Optimizer& optimizer) { optimizer.RegisterPerformancePasses(); });
-}
-
 std::vector<uint32_t> specialised(const std::vector<uint32_t>& spirv,
                                   std::span<const SpecialisationConstant> constants) {
     std::unordered_map<uint32_t, std::vector<uint32_t>> values;
