@@ -74,11 +74,11 @@ TEST_F(Determinism, KernelsSpecialisedToTheSceneGiveTheBitsOfGeneralOnes) {
         const RenderResult special = renderScene(device(), scene, settings);
         const RenderResult general = renderScene(device(), scene, settings, [](std::string_view kernel) {
             return patchedKernel(kernel,
-                                 {"lib/features.glsl", "(kFeatures & feature) != 0u",
+                                 {"lib/features.glsl", "(kFeatures & (feature)) != 0u",
                                   "((kFeatures | ~(kFeatureVertexColors | kFeatureIridescence | "
                                   "kFeatureAnisotropy | kFeatureLens | kFeaturePanorama | "
                                   "kFeatureOrthographic | kFeatureLights | "
-                                  "kFeatureEnvironmentLight | kFeatureEnvironmentMap)) & feature) != 0u"});
+                                  "kFeatureEnvironmentLight | kFeatureEnvironmentMap)) & (feature)) != 0u"});
         });
         EXPECT_EQ(special.filmWords, general.filmWords) << name;
     }
