@@ -82,8 +82,8 @@ class Device {
     [[nodiscard]] std::vector<std::string> validationMessages() const {
         return instance_.validationMessages();
     }
-    [[nodiscard]] double kernelTimeout() const { return kernelTimeout_; } // seconds; 0: none
     void requireNoValidationMessages() const { instance_.requireNoValidationMessages(); }
+    [[nodiscard]] double kernelTimeout() const { return kernelTimeout_; } // seconds; 0: none
 
     // Bytes of the buffers alive now, and the most there ever were.
     [[nodiscard]] uint64_t allocatedBytes() const { return allocatedBytes_; }

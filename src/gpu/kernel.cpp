@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "gpu/shader_optimiser.h"
 
 namespace lavalight::gpu {
 namespace {
@@ -42,20 +41,10 @@ vk::raii::PipelineLayout makeLayout(const Device& device, const KernelCode& code
 
 vk::raii::Pipeline makePipeline(const Device& device, const KernelCode& code, vk::PipelineLayout layout,
                                 std::span<const SpecialisationConstant> constants) {
-    std::vector<vk::SpecializationMapEntry> entries;
-    std::vector<uint32_t> values;
-    for (const SpecialisationConstant& constant : constants) {
-        entries.emplace_back(constant.id, static_cast<uint32_t>(values.size() * sizeof(uint32_t)),
-                             sizeof(uint32_t));
-        values.push_back(constant.value);
-    }
-    const vk::SpecializationInfo specialisation(static_cast<uint32_t>(entries.size()), entries.data(),
-                                                values.size() * sizeof(uint32_t), values.data());
     const std::vector<uint32_t> spirv = specialised(code.spirv, constants);
     const vk::ShaderModuleCreateInfo moduleInfo({}, spirv);
     const vk::raii::ShaderModule shader(device.handle(), moduleInfo);
-    const vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *shader, "main",
-                                                  &specialisation);
+    const vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *shader, "main");
     return {device.handle(), nullptr, vk::ComputePipelineCreateInfo({}, stage, layout)};
 }
 

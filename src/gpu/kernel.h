@@ -13,6 +13,7 @@
 #include "gpu/buffer.h"
 #include "gpu/device.h"
 #include "gpu/shader_build.h"
+#include "gpu/specialisation.h"
 
 namespace lavalight::gpu {
 

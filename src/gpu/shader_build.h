@@ -29,13 +29,6 @@ struct KernelCode {
     uint32_t pushConstantBytes = 0;
 };
 
-// layout(constant_id = id) const uint/int/bool/float in the shader; floats as their bits.
-struct SpecialisationConstant {
-    uint32_t id = 0;
-    uint32_t value = 0;
-    bool operator==(const SpecialisationConstant&) const = default;
-};
-
 // The text of a shader file, and the name that the compiler's messages give it.
 struct ShaderText {
     std::string name;

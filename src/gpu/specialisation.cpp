@@ -1,4 +1,4 @@
-#include "gpu/shader_optimiser.h"
+#include "gpu/specialisation.h"
 
 #include <string>
 #include <unordered_map>
@@ -22,7 +22,7 @@ std::vector<uint32_t> run(const std::vector<uint32_t>& spirv, const RegisterPass
     options.set_run_validator(false); // the validation layer checks every module in the device tests
     std::vector<uint32_t> result;
     if (!optimizer.Run(spirv.data(), spirv.size(), &result, options))
-        throw Error(fmt::format("cannot optimise a kernel:{}", messages));
+        throw Error(fmt::format("cannot specialise a kernel:{}", messages));
     return result;
 }
 
