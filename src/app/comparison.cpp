@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <utility>
 
 #include <fmt/format.h>
@@ -10,7 +9,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "image/picture.h"
-#include "image/srgb.h"
+#include "scene/texel.h"
 
 namespace lavalight {
 namespace {
@@ -22,19 +21,11 @@ bool isPicture(std::string_view bytes) {
     return bytes.starts_with(kPng);
 }
 
-float channelOf(const Picture& picture, size_t index) {
-    if (!picture.is16Bit)
-        return static_cast<float>(picture.bytes[index]) / 255.0f;
-    uint16_t value = 0;
-    std::memcpy(&value, picture.bytes.data() + 2 * index, sizeof value);
-    return static_cast<float>(value) / 65535.0f;
-}
-
 Image linearImage(const Picture& picture) {
     Image image(picture.width, picture.height);
-    for (size_t i = 0; i < image.pixels.size(); ++i)
-        for (size_t c = 0; c < 3; ++c)
-            image.pixels[i][static_cast<int>(c)] = decodeSrgb(channelOf(picture, 4 * i + c));
+    for (uint32_t y = 0; y < picture.height; ++y)
+        for (uint32_t x = 0; x < picture.width; ++x)
+            image.pixels[size_t{y} * picture.width + x] = glm::vec3(texelOf(picture, x, y, true));
     return image;
 }
 

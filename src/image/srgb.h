@@ -8,8 +8,8 @@
 namespace lavalight {
 
 // The linear value in [0, 1] of a signal in [0, 1].
-[[nodiscard]] inline float decodeSrgb(float signal) {
-    return signal <= 0.04045f ? signal / 12.92f : std::pow((signal + 0.055f) / 1.055f, 2.4f);
+[[nodiscard]] inline double decodeSrgb(double signal) {
+    return signal <= 0.04045 ? signal / 12.92 : std::pow((signal + 0.055) / 1.055, 2.4);
 }
 
 // The nearest of 256 signals; what lies outside [0, 1] is clamped, NaN is black.

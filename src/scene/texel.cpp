@@ -2,21 +2,18 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstring>
+
+#include "image/srgb.h"
 
 namespace lavalight {
 namespace {
-
-double srgbToLinear(double v) {
-    return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
-}
 
 // Of 8-bit channels: a picture has millions of them.
 std::array<double, 256> linearValues() {
     std::array<double, 256> values{};
     for (size_t i = 0; i < values.size(); ++i)
-        values[i] = srgbToLinear(static_cast<double>(i) / 255.0);
+        values[i] = decodeSrgb(static_cast<double>(i) / 255.0);
     return values;
 }
 
@@ -38,7 +35,7 @@ glm::dvec4 texelOf(const Picture& picture, uint32_t x, uint32_t y, bool isSrgb) 
     static const std::array<double, 256> linear = linearValues();
     if (isSrgb)
         for (glm::length_t c = 0; c < 3; ++c)
-            value[c] = picture.is16Bit ? srgbToLinear(value[c])
+            value[c] = picture.is16Bit ? decodeSrgb(value[c])
                                        : linear[picture.bytes[first + static_cast<size_t>(c)]];
     return value;
 }

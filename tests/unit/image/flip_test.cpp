@@ -26,7 +26,7 @@ Image readPng(const std::string& path) {
     for (size_t i = 0; i < image.pixels.size(); ++i)
         for (int c = 0; c < 3; ++c)
             image.pixels[i][c] =
-                decodeSrgb(static_cast<float>(picture.bytes[4 * i + static_cast<size_t>(c)]) / 255.0f);
+                static_cast<float>(decodeSrgb(picture.bytes[4 * i + static_cast<size_t>(c)] / 255.0));
     return image;
 }
 
