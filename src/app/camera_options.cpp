@@ -87,8 +87,8 @@ void CameraOptions::setLens(const Scene& scene, Camera& camera) const {
         throw UsageError("--focus: the middle of the scene is behind the camera; give a distance");
 }
 
-std::vector<std::pair<std::string, std::string>> CameraOptions::given() const {
-    std::vector<std::pair<std::string, std::string>> pairs;
+OptionPairs CameraOptions::given() const {
+    OptionPairs pairs;
     for (const char* name : {"look-from", "look-at", "up", "fov", "aperture", "focus", "panorama"})
         if (const std::string option = fmt::format("--{}", name); isGiven(option.c_str()))
             pairs.emplace_back(name, panorama_ && option == "--panorama"

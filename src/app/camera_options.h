@@ -2,11 +2,10 @@
 #pragma once
 
 #include <string>
-#include <utility>
-#include <vector>
 
 #include <CLI/CLI.hpp>
 
+#include "render/settings.h"
 #include "scene/scene.h"
 
 namespace lavalight {
@@ -25,7 +24,7 @@ class CameraOptions {
 
     // Names (without dashes) and values of the options that were given and that the camera's name does not
     // tell.
-    [[nodiscard]] std::vector<std::pair<std::string, std::string>> given() const;
+    [[nodiscard]] OptionPairs given() const;
 
   private:
     [[nodiscard]] bool isGiven(const char* option) const { return parser_->count(option) > 0; }

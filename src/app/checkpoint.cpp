@@ -15,8 +15,9 @@ Checkpoint::Checkpoint(std::string file, std::chrono::duration<double> interval)
     : file_(std::move(file)), interval_(interval) {
     if (!isWanted())
         return;
-    removeUnfinished(file_);
     requireWritable(file_);
+    lock_ = std::make_unique<FileLock>(file_);
+    removeUnfinished(file_);
 }
 
 std::optional<FilmFile> Checkpoint::read() {

@@ -3,16 +3,19 @@
 
 #include <chrono>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 
+#include "base/file_lock.h"
 #include "render/film_file.h"
 
 namespace lavalight {
 
 class Checkpoint {
   public:
-    // An empty file name: checkpoints are never due. Removes what killed renders left half-written.
+    // An empty file name: checkpoints are never due. Removes what killed renders left half-written. Throws
+    // Error where the file cannot be written, or another process is at it.
     Checkpoint(std::string file, std::chrono::duration<double> interval);
 
     [[nodiscard]] const std::string& file() const { return file_; }
@@ -32,6 +35,7 @@ class Checkpoint {
 
   private:
     std::string file_;
+    std::unique_ptr<FileLock> lock_; // where there is a file
     std::chrono::duration<double> interval_;
     std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
     std::optional<FilmProgress> read_; // how far the film had come that was read

@@ -6,17 +6,17 @@ namespace lavalight {
 namespace {
 
 // A signal handler can reach nothing but a global: the one exception to "no globals".
-volatile std::sig_atomic_t wasInterrupted = 0;
+volatile std::sig_atomic_t received = 0; // 0: none
 
 void remember(int signal) {
-    wasInterrupted = 1;
+    received = signal;
     std::signal(signal, SIG_DFL);
 }
 
 } // namespace
 
 InterruptGuard::InterruptGuard() {
-    wasInterrupted = 0;
+    received = 0;
     std::signal(SIGINT, remember);
     std::signal(SIGTERM, remember);
 }
@@ -27,7 +27,11 @@ InterruptGuard::~InterruptGuard() {
 }
 
 bool InterruptGuard::interrupted() const {
-    return wasInterrupted != 0;
+    return received != 0;
+}
+
+int InterruptGuard::exitCode() const {
+    return 128 + received;
 }
 
 } // namespace lavalight

@@ -13,6 +13,8 @@ class InterruptGuard {
     InterruptGuard& operator=(const InterruptGuard&) = delete;
 
     [[nodiscard]] bool interrupted() const;
+    // As shells say it: 130 for SIGINT, 143 for SIGTERM.
+    [[nodiscard]] int exitCode() const;
 };
 
 } // namespace lavalight

@@ -30,8 +30,6 @@
 namespace lavalight {
 namespace {
 
-constexpr int kInterrupted = 130;
-
 void warnOfOverlaps(RenderReport& report, const Scene& scene) {
     if (report.tallies.overlaps == 0)
         return;
@@ -189,7 +187,7 @@ int RenderCommand::runWatching(Session& session) const {
             spdlog::info("compiled in {:.2f} s", take.watch.lap("prepare"));
         }
     }
-    return kInterrupted;
+    return guard.exitCode();
 }
 
 Take RenderCommand::prepare(const ImportOptions& moment, Session& session) const {
@@ -263,7 +261,7 @@ int RenderCommand::renderMoment(const Outputs& files, const ImportOptions& momen
     write(take, files, session);
     checkpoint.requireWritten();
     session.kernels = take.renderer->releaseKernels();
-    return take.report.stop == StopReason::interrupted ? kInterrupted : 0;
+    return take.report.stop == StopReason::interrupted ? guard.exitCode() : 0;
 }
 
 } // namespace lavalight

@@ -51,8 +51,9 @@ int ViewCommand::run() {
     const Camera camera = options_.cameraOf(*scene);
     settings = resolveSize(settings, camera);
     checkSettings(settings);
-    ViewState view{scene_, import,   scene,           CameraRig(camera, scene->bounds),
-                   camera, settings, tone_.settings()};
+    ViewState view{
+        scene_,   import,          scene, CameraRig(camera, scene->bounds), camera, settings.cameraOptions,
+        settings, tone_.settings()};
     const auto load = [](const SceneOrder& order) {
         return loadLit(order.source, order.import, order.settings);
     };

@@ -57,9 +57,9 @@ void checkSettings(const RenderSettings& settings) {
     checkEstimator(settings.estimator);
 }
 
-std::vector<std::pair<std::string, std::string>> describe(const RenderSettings& settings) {
+OptionPairs describe(const RenderSettings& settings) {
     const EstimatorSettings& e = settings.estimator;
-    std::vector<std::pair<std::string, std::string>> pairs;
+    OptionPairs pairs;
     const auto add = [&](const char* option, auto value) {
         pairs.emplace_back(option, fmt::format("{}", value));
     };

@@ -16,6 +16,9 @@
 
 namespace lavalight {
 
+// Options of the command line: names without dashes, and values.
+using OptionPairs = std::vector<std::pair<std::string, std::string>>;
+
 // Values are those of the specialisation constants in shaders/shared/frame.h.
 enum class Sampler : uint32_t { sobol = kSamplerSobol, independent = kSamplerIndependent };
 enum class Hemisphere : uint32_t { cosine = kHemisphereCosine, uniform = kHemisphereUniform };
@@ -81,7 +84,7 @@ struct RenderSettings {
     std::string environmentFile;          // where Scene::environmentMap came from; empty: nowhere
     float environmentRotation = 0.0f;     // of the map about +Y, degrees, counter-clockwise seen from above
     std::vector<std::string> changedShaders;                        // of --shaders, for the record
-    std::vector<std::pair<std::string, std::string>> cameraOptions; // as given, for describe() alone
+    OptionPairs cameraOptions; // as given, for describe() alone
     float environmentIntensity = 1.0f; // multiplies the environment, whatever it is
     bool operator==(const RenderSettings&) const = default;
 };
@@ -93,6 +96,6 @@ void checkSettings(const RenderSettings& settings);
 
 // Option name (without dashes) and value of everything that decides the image's bits, for the EXR header and
 // report.
-[[nodiscard]] std::vector<std::pair<std::string, std::string>> describe(const RenderSettings& settings);
+[[nodiscard]] OptionPairs describe(const RenderSettings& settings);
 
 } // namespace lavalight

@@ -102,10 +102,10 @@ void CameraRig::focusOn(const glm::vec3& point) {
         camera_.focusDistance = ahead;
 }
 
-std::vector<std::pair<std::string, std::string>> cameraOptions(const CameraRig& rig) {
+OptionPairs cameraOptions(const CameraRig& rig) {
     const Camera& camera = rig.camera();
     const auto text = [](const glm::vec3& v) { return fmt::format("{},{},{}", v.x, v.y, v.z); };
-    std::vector<std::pair<std::string, std::string>> options{
+    OptionPairs options{
         {"look-from", text(camera.position)}, {"look-at", text(rig.pivot())}, {"up", text(camera.up)}};
     if (camera.projection == Projection::perspective)
         options.emplace_back("fov", fmt::format("{}", glm::degrees(camera.verticalFov)));

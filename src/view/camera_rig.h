@@ -3,11 +3,10 @@
 
 #include <optional>
 #include <string>
-#include <utility>
-#include <vector>
 
 #include <glm/glm.hpp>
 
+#include "render/settings.h"
 #include "scene/scene.h"
 
 namespace lavalight {
@@ -51,7 +50,7 @@ class CameraRig {
 };
 
 // Options (without dashes) of `lavalight render` that place a camera there.
-[[nodiscard]] std::vector<std::pair<std::string, std::string>> cameraOptions(const CameraRig& rig);
+[[nodiscard]] OptionPairs cameraOptions(const CameraRig& rig);
 
 // Where a point appears: (0, 0) is the image's top left corner, (1, 1) its bottom right one. Nothing for what
 // lies behind a perspective camera. `aspect`: width / height.

@@ -12,6 +12,7 @@ void drawCameras(ViewState& view) {
         for (const Camera& camera : view.scene->cameras)
             if (ImGui::Selectable(camera.name.c_str(), camera.name == view.home.name)) {
                 view.home = camera;
+                view.homeOptions.clear();
                 view.rig = CameraRig(camera, view.scene->bounds);
             }
         ImGui::EndCombo();

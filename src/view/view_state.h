@@ -17,7 +17,8 @@ struct ViewState {
     ImportOptions import;
     std::shared_ptr<const Scene> scene;
     CameraRig rig;
-    Camera home; // that reset goes back to
+    Camera home;             // that reset goes back to
+    OptionPairs homeOptions; // of `lavalight render`, that place it
     RenderSettings settings;
     ToneSettings tone;
     bool isSplit = false;

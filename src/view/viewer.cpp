@@ -132,6 +132,7 @@ void Viewer::receiveScene() {
     view_.import = outcome->order.import;
     if (isOther) {
         view_.home = view_.scene->cameras.front();
+        view_.homeOptions.clear();
         view_.rig = CameraRig(view_.home, view_.scene->bounds);
     }
     inspection_.reset();
@@ -252,8 +253,9 @@ void Viewer::send() {
         return; // minimised: the image is kept
     view_.settings.width = pixels.x;
     view_.settings.height = pixels.y;
-    if (view_.rig.camera() != view_.home)
-        view_.settings.cameraOptions = cameraOptions(view_.rig); // for the record of saved images
+    // For the record of saved images.
+    view_.settings.cameraOptions =
+        view_.rig.camera() == view_.home ? view_.homeOptions : cameraOptions(view_.rig);
     if (!view_.isSplit)
         view_.other = view_.settings.estimator;
     LiveRequest request{view_.scene, view_.rig.camera(), view_.settings, std::nullopt,

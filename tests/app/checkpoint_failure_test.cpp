@@ -79,5 +79,19 @@ TEST_F(CheckpointFailure, WithoutItsFolderTheImageIsWritten) {
     EXPECT_EQ(folder_.count(), 1);
 }
 
+TEST_F(CheckpointFailure, ASecondRenderDoesNotTakeTheFirstOnesCheckpoint) {
+    const std::vector<std::string> words{"render",       "--size", "24x20", "--samples", "0:100000000",
+                                         "--checkpoint", "c.exr",  "-o",    "a.exr"};
+    RunningProgram first(words, folder_.path());
+    first.waitUntilItCatchesInterrupts();
+    const ProgramResult second = runLavalight(words, folder_.path());
+    EXPECT_EQ(second.exitCode, 1);
+    EXPECT_TRUE(second.err.starts_with("lavalight: error: c.exr is in use by another process ("))
+        << second.err;
+    EXPECT_EQ(first.interrupt().exitCode, 130);
+    EXPECT_TRUE(readFilmFile(folder_ / "c.exr").progress.samples > 0);
+    EXPECT_EQ(folder_.count(), 2) << "a lock was left behind";
+}
+
 } // namespace
 } // namespace lavalight

@@ -38,7 +38,7 @@ TEST_F(Signals, TerminationWritesTheImageSoFar) {
     program.waitUntilItCatchesInterrupts();
     program.send(SIGTERM);
     const ProgramResult result = program.wait();
-    EXPECT_EQ(result.exitCode, 130) << result.err;
+    EXPECT_EQ(result.exitCode, 143) << result.err;
     const std::vector<uint32_t> counts = readExr(folder_ / "a.exr").sampleCounts.value();
     EXPECT_GT(*std::max_element(counts.begin(), counts.end()), 0u);
     EXPECT_EQ(folder_.count(), 1);

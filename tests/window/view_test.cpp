@@ -1,4 +1,5 @@
 // The window, on a desktop in memory: what it shows is what render writes, and it does what its user asks.
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
@@ -162,9 +163,20 @@ TEST_F(View, OpensWhatIsDroppedAndKeepsTheSceneWhereThatIsBroken) {
     desktop_.drop(scene, window_);
     waitFor("furnace.gltf");
     waitFor(kDone);
-    key("Tab"); // the message that lies over the image is closed with the mouse alone
-    key("Tab");
     EXPECT_TRUE(program_->isRunning());
+    quit();
+}
+
+TEST_F(View, IsLitByAMapThatIsDropped) {
+    // Two texels of RGBE: a blue and a brighter, yellow one.
+    std::ofstream(folder_ / "sky.hdr", std::ios::binary)
+        << "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n\x20\x20\xc0\x80\xc0\xc0\x20\x82";
+    const std::string sky = (folder_ / "sky.hdr").string();
+    open({"cornell-box"});
+    const Screenshot lit = rendered({"cornell-box", "--env", sky});
+    ASSERT_TRUE(lit != rendered({"cornell-box"}));
+    desktop_.drop(sky, window_);
+    expectShown(lit);
     quit();
 }
 
@@ -180,6 +192,27 @@ TEST_F(View, SavesTheImageAsRenderWritesIt) {
     EXPECT_EQ(saved.radiance.pixels, wanted.radiance.pixels);
     EXPECT_EQ(saved.sampleCounts, wanted.sampleCounts);
     EXPECT_EQ(readPng(folder_ / "cornell-box-1.png"), rendered({"cornell-box"}));
+    quit();
+}
+
+TEST_F(View, SavesWhereTheCameraIs) {
+    const auto hasLookFrom = [](const Metadata& metadata) {
+        return std::any_of(metadata.begin(), metadata.end(),
+                           [](const auto& pair) { return pair.first == "option:look-from"; });
+    };
+    open({"cornell-box"});
+    desktop_.input("mousemove --window " + window_ + " 120 90 click 4"); // the wheel: nearer
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    waitFor(kDone);
+    key("ctrl+s");
+    ASSERT_TRUE(program_->waitForText("saved cornell-box-1.exr"));
+    EXPECT_TRUE(hasLookFrom(readExr(folder_ / "cornell-box-1.exr").metadata));
+    key("Home");
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    waitFor(kDone);
+    key("ctrl+s");
+    ASSERT_TRUE(program_->waitForText("saved cornell-box-2.exr"));
+    EXPECT_FALSE(hasLookFrom(readExr(folder_ / "cornell-box-2.exr").metadata));
     quit();
 }
 

@@ -1,0 +1,23 @@
+// A file that only one process at a time may work at.
+#pragma once
+
+#include <filesystem>
+
+namespace lavalight {
+
+// While one lives, nobody else gets one for the same file. It is a lock of the system's on a file beside it
+// (.lock), which the system drops where a process is killed. File systems that know no locks are trusted.
+class FileLock {
+  public:
+    // Throws Error where another one has it, naming its process, or where the folder is not writable.
+    explicit FileLock(const std::filesystem::path& file);
+    ~FileLock();
+    FileLock(const FileLock&) = delete;
+    FileLock& operator=(const FileLock&) = delete;
+
+  private:
+    std::filesystem::path path_;
+    int descriptor_ = -1;
+};
+
+} // namespace lavalight
