@@ -83,9 +83,9 @@ struct RenderSettings {
     std::optional<glm::vec3> environment; // constant radiance that replaces the scene's
     std::string environmentFile;          // where Scene::environmentMap came from; empty: nowhere
     float environmentRotation = 0.0f;     // of the map about +Y, degrees, counter-clockwise seen from above
-    std::vector<std::string> changedShaders;                        // of --shaders, for the record
-    OptionPairs cameraOptions; // as given, for describe() alone
-    float environmentIntensity = 1.0f; // multiplies the environment, whatever it is
+    std::vector<std::string> changedShaders; // of --shaders, for the record
+    OptionPairs cameraOptions;               // as given, for describe() alone
+    float environmentIntensity = 1.0f;       // multiplies the environment, whatever it is
     bool operator==(const RenderSettings&) const = default;
 };
 

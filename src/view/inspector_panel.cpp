@@ -54,7 +54,7 @@ void drawVertices(const std::vector<TracedVertex>& vertices, const Scene& scene)
 
 } // namespace
 
-bool drawInspection(const PixelInspection& inspection, const Scene& scene, uint32_t& sample) {
+bool drawInspection(const PixelInspection& inspection, uint32_t& sample) {
     ImGui::TextUnformatted(fmt::format("pixel {}, {}: {} of {} samples, standard error {}",
                                        inspection.pixel.x, inspection.pixel.y, text(inspection.radiance),
                                        inspection.count, text(glm::sqrt(inspection.variance)))
@@ -62,7 +62,7 @@ bool drawInspection(const PixelInspection& inspection, const Scene& scene, uint3
     sample = inspection.sample;
     const bool isChanged = count("sample", sample, 0, 0x7ffffffe, "Whose path is shown");
     ImGui::TextUnformatted(fmt::format("brings {}", text(inspection.path.radiance)).c_str());
-    drawVertices(inspection.path.vertices, scene);
+    drawVertices(inspection.path.vertices, *inspection.scene);
     return isChanged;
 }
 

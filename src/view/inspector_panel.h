@@ -9,7 +9,7 @@
 namespace lavalight {
 
 // Draws the table. Whether another sample's path is asked for: `sample` is then its number.
-bool drawInspection(const PixelInspection& inspection, const Scene& scene, uint32_t& sample);
+bool drawInspection(const PixelInspection& inspection, uint32_t& sample);
 
 // Draws the path over a window of that many points, as the view's camera sees it.
 void drawPath(const PixelInspection& inspection, const ViewState& view, const glm::vec2& window);

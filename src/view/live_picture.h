@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "gpu/commands.h"
 #include "render/path_trace.h"
 #include "render/wave_renderer.h"
+#include "scene/scene.h"
 
 namespace lavalight {
 
@@ -38,6 +40,7 @@ struct LiveView {
 
 // A pixel, and one of its paths.
 struct PixelInspection {
+    std::shared_ptr<const Scene> scene; // that was rendered: its indices are those of the path
     glm::uvec2 pixel{0};
     glm::vec3 radiance{0.0f}; // mean of its samples
     glm::vec3 variance{0.0f}; // of that mean

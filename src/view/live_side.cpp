@@ -120,6 +120,7 @@ LiveView LiveSide::view() {
 
 PixelInspection LiveSide::inspect(const glm::uvec2& pixel, uint32_t sample) const {
     PixelInspection inspection;
+    inspection.scene = request_->scene;
     const Film& film = renderer_->film();
     // A coarse film has a pixel for several of the window's.
     inspection.pixel = pixel * glm::uvec2(film.width(), film.height()) /

@@ -63,13 +63,13 @@ drawPanel(ViewState& view,
     return answer;
 }
 
-bool drawInspector(const PixelInspection& inspection, const Scene& scene, uint32_t& sample) {
+bool drawInspector(const PixelInspection& inspection, uint32_t& sample) {
     bool isChanged = false;
     const float em = ImGui::GetFontSize();
     ImGui::SetNextWindowPos(ImVec2(em, em), ImGuiCond_FirstUseEver);
     ImGui::SetNextWindowSize(ImVec2(44.0f * em, 16.0f * em), ImGuiCond_FirstUseEver);
     if (ImGui::Begin("Pixel", nullptr, ImGuiWindowFlags_NoSavedSettings))
-        isChanged = drawInspection(inspection, scene, sample);
+        isChanged = drawInspection(inspection, sample);
     ImGui::End();
     return isChanged;
 }

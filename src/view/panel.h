@@ -24,7 +24,7 @@ drawPanel(ViewState& view,
           const std::pair<std::optional<LiveStatistics>, std::optional<LiveStatistics>>& statistics);
 
 // The inspector's window. Whether another sample's path is asked for.
-bool drawInspector(const PixelInspection& inspection, const Scene& scene, uint32_t& sample);
+bool drawInspector(const PixelInspection& inspection, uint32_t& sample);
 
 // The line between two images, to be dragged.
 void drawSplit(ViewState& view, const glm::vec2& window);

@@ -154,6 +154,8 @@ void Viewer::receiveShaders() {
 }
 
 void Viewer::takeInspection(const PixelInspection& inspection) {
+    if (inspection.scene != view_.scene)
+        return; // another one came in between
     const bool isHit =
         !inspection.path.vertices.empty() && (inspection.path.vertices.front().triangle != kNoTriangle);
     if (purpose_ == Purpose::look)
@@ -230,7 +232,7 @@ void Viewer::draw() {
     if (inspection_) {
         drawPath(*inspection_, view_, points());
         uint32_t sample = 0;
-        if (drawInspector(*inspection_, *view_.scene, sample))
+        if (drawInspector(*inspection_, sample))
             render_.inspect(inspection_->pixel, sample);
     }
     if (view_.isSplit)

@@ -127,7 +127,7 @@ std::vector<Variant> answerable(const std::string& scene, std::vector<Variant> v
 
 void expectOneMean(gpu::Device& device, const Scene& scene, const std::vector<Variant>& variants,
                    uint32_t samples, double leastShare) {
-    const Rendering expected = render(device, scene, defaultVariant().settings, samples);
+    const Rendering expected = render(device, scene, defaultVariant().settings, 2 * samples);
     for (const Variant& variant : variants) {
         const Rendering image = render(device, scene, variant.settings, samples);
         const MeanComparison comparison = compareMeans(image, expected);
