@@ -59,7 +59,10 @@ LiveRender::~LiveRender() {
 }
 
 void LiveRender::show(const LiveRequest& request) {
-    order([&] { wanted_ = request; });
+    order([&] {
+        wanted_ = request;
+        news_.isReady = false;
+    });
 }
 
 void LiveRender::inspect(const glm::uvec2& pixel, uint32_t sample) {
@@ -111,13 +114,15 @@ bool LiveRender::takeOrders(Work& work) {
     std::vector<Task> tasks;
     {
         std::unique_lock lock(mutex_);
-        orders_.wait(lock, [&] { return isEnding_ || wanted_ || !tasks_.empty() || work.next() != nullptr; });
+        const bool isComplete = work.sides[0].isComplete();
+        orders_.wait(lock, [&] {
+            return isEnding_ || wanted_ || (isComplete && !tasks_.empty()) || work.next() != nullptr;
+        });
         if (isEnding_)
             return false;
         request = std::exchange(wanted_, std::nullopt);
-        tasks = std::exchange(tasks_, {});
-        if (request)
-            news_.isReady = false;
+        if (!request && isComplete)
+            tasks = std::exchange(tasks_, {});
     }
     if (request)
         change(work, *request);
@@ -149,8 +154,6 @@ void LiveRender::change(Work& work, const LiveRequest& request) {
 }
 
 void LiveRender::perform(Work& work, const Task& task) {
-    if (!work.sides[0].isComplete())
-        return; // there is no image
     try {
         if (task.pixel) {
             PixelInspection inspection = work.sides[0].inspect(*task.pixel, task.sample);

@@ -38,9 +38,9 @@ class LiveRender {
 
     // From then on the newest request counts.
     void show(const LiveRequest& request);
-    // A path of a pixel of the window; the answer comes as news.
+    // A path of a pixel of the window; the answer comes as news, once there is an image.
     void inspect(const glm::uvec2& pixel, uint32_t sample);
-    // Writes the image as it is; empty names are left out.
+    // Writes the image as it is, or as soon as it has a sample; empty names are left out.
     void save(const std::string& exr, const std::string& png);
 
     // Throws Error once the thread has ended for a failure that leaves no way to go on, such as a lost
@@ -75,7 +75,7 @@ class LiveRender {
     std::mutex mutex_; // of everything below
     std::condition_variable orders_;
     std::optional<LiveRequest> wanted_; // that is not being rendered yet
-    std::vector<Task> tasks_;
+    std::vector<Task> tasks_;           // for the image, as soon as it has a sample
     LiveNews news_;
     std::string failure_; // that ended the thread
     bool isEnding_ = false;

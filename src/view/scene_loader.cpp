@@ -1,6 +1,5 @@
 #include "view/scene_loader.h"
 
-#include <chrono>
 #include <utility>
 
 namespace lavalight {
@@ -13,22 +12,30 @@ void SceneLoader::order(const SceneOrder& order) {
 }
 
 void SceneLoader::start(const SceneOrder& order) {
-    current_ = std::async(std::launch::async, [this, order] {
+    thread_ = std::jthread([this, order] {
         Outcome outcome{order, nullptr, {}};
         try {
             outcome.scene = std::make_shared<const Scene>(load_(order));
         } catch (const std::exception& error) {
             outcome.error = error.what();
         }
+        {
+            const std::lock_guard lock(mutex_);
+            outcome_ = std::move(outcome);
+        }
         wake_();
-        return outcome;
     });
 }
 
 std::optional<SceneLoader::Outcome> SceneLoader::take() {
-    if (!isBusy() || current_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
+    std::optional<Outcome> outcome;
+    {
+        const std::lock_guard lock(mutex_);
+        outcome = std::exchange(outcome_, std::nullopt);
+    }
+    if (!outcome)
         return std::nullopt;
-    Outcome outcome = current_.get();
+    thread_.join();
     if (next_)
         start(*std::exchange(next_, std::nullopt));
     return outcome;

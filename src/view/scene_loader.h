@@ -2,10 +2,11 @@
 #pragma once
 
 #include <functional>
-#include <future>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
+#include <thread>
 
 #include "render/settings.h"
 #include "scene/import_options.h"
@@ -24,7 +25,7 @@ class SceneLoader {
   public:
     // Throws Error for what is no scene.
     using Load = std::function<Scene(const SceneOrder& order)>;
-    // `wake` is called, from another thread, when there is an outcome.
+    // `wake` is called, from another thread, once there is an outcome.
     SceneLoader(Load load, std::function<void()> wake) : load_(std::move(load)), wake_(std::move(wake)) {}
 
     // The newest order counts; it waits for the one under way.
@@ -37,15 +38,17 @@ class SceneLoader {
     };
     // Of an order, once.
     [[nodiscard]] std::optional<Outcome> take();
-    [[nodiscard]] bool isBusy() const { return current_.valid(); }
+    [[nodiscard]] bool isBusy() const { return thread_.joinable(); }
 
   private:
     void start(const SceneOrder& order);
 
     Load load_;
     std::function<void()> wake_;
-    std::future<Outcome> current_;
     std::optional<SceneOrder> next_;
+    std::mutex mutex_;               // of:
+    std::optional<Outcome> outcome_; // of the order under way
+    std::jthread thread_;            // last: ends before all else goes
 };
 
 } // namespace lavalight

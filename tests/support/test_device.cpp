@@ -4,14 +4,16 @@
 
 namespace lavalight::test {
 
+gpu::DeviceConfig testDeviceConfig() {
+    gpu::DeviceConfig config;
+    const char* wanted = std::getenv("LAVALIGHT_TEST_DEVICE");
+    config.wanted = wanted != nullptr ? wanted : "";
+    config.validate = true;
+    return config;
+}
+
 gpu::Device& testDevice() {
-    static gpu::Device device([] {
-        gpu::DeviceConfig config;
-        const char* wanted = std::getenv("LAVALIGHT_TEST_DEVICE");
-        config.wanted = wanted != nullptr ? wanted : "";
-        config.validate = true;
-        return config;
-    }());
+    static gpu::Device device(testDeviceConfig());
     return device;
 }
 

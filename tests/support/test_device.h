@@ -9,6 +9,7 @@
 namespace lavalight::test {
 
 // LAVALIGHT_TEST_DEVICE (an index or a part of a name) picks another device than the first.
+[[nodiscard]] gpu::DeviceConfig testDeviceConfig();
 [[nodiscard]] gpu::Device& testDevice();
 
 // Base of every test that touches the device: the first message of the validation layer fails the test.
