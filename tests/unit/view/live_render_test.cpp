@@ -106,8 +106,7 @@ TEST_F(LiveRenderTest, PathsAreOfTheSceneThatWasRendered) {
     EXPECT_EQ(inBox.count, 8u);
     ASSERT_FALSE(inBox.path.vertices.empty());
     render_.show(plates);
-    (void)waitForImage();
-    EXPECT_EQ(inspect({20, 15}).scene, plates.scene);
+    EXPECT_EQ(inspect({20, 15}).scene, plates.scene) << "what is asked at once waits for the image";
 }
 
 TEST_F(LiveRenderTest, OrdersOfEveryKindInAnyOrderEndInTheImageOfTheLastOne) {
