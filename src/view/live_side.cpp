@@ -122,9 +122,10 @@ PixelInspection LiveSide::inspect(const glm::uvec2& pixel, uint32_t sample) cons
     PixelInspection inspection;
     inspection.scene = request_->scene;
     const Film& film = renderer_->film();
-    // A coarse film has a pixel for several of the window's.
-    inspection.pixel = pixel * glm::uvec2(film.width(), film.height()) /
-                       glm::uvec2(request_->settings.width, request_->settings.height);
+    // A coarse film has a pixel for several of the window's, and the window may have been larger when it was
+    // asked.
+    const glm::uvec2 size(request_->settings.width, request_->settings.height);
+    inspection.pixel = glm::min(pixel, size - 1u) * glm::uvec2(film.width(), film.height()) / size;
     const Rendering rendering = film.resolve();
     const size_t at = size_t{inspection.pixel.y} * film.width() + inspection.pixel.x;
     inspection.radiance = rendering.radiance.pixels[at];

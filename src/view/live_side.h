@@ -29,6 +29,7 @@ class LiveSide {
     [[nodiscard]] double seconds() const { return statistics_.seconds; }
 
     [[nodiscard]] LiveView view();
+    // Of the pixel nearest to that one, of the request's size.
     [[nodiscard]] PixelInspection inspect(const glm::uvec2& pixel, uint32_t sample) const;
     // There must be an image.
     [[nodiscard]] const Renderer& renderer() const { return *renderer_; }

@@ -109,6 +109,17 @@ TEST_F(LiveRenderTest, PathsAreOfTheSceneThatWasRendered) {
     EXPECT_EQ(inspect({20, 15}).scene, plates.scene) << "what is asked at once waits for the image";
 }
 
+// A click, then a smaller window before it is answered.
+TEST_F(LiveRenderTest, APixelBeyondTheImageIsTheNearestOne) {
+    LiveRequest request = requestFor("cornell-box");
+    render_.show(request);
+    (void)waitForImage();
+    request.settings.width = 20;
+    request.settings.height = 15;
+    render_.show(request);
+    EXPECT_EQ(inspect({4000, 3000}).pixel, glm::uvec2(19, 14));
+}
+
 TEST_F(LiveRenderTest, OrdersOfEveryKindInAnyOrderEndInTheImageOfTheLastOne) {
     const TemporaryFolder folder;
     const LiveRequest last = requestFor("cornell-box");
