@@ -66,7 +66,10 @@ void LiveRender::show(const LiveRequest& request) {
 }
 
 void LiveRender::inspect(const glm::uvec2& pixel, uint32_t sample) {
-    order([&] { tasks_.push_back({pixel, sample, {}, {}}); });
+    order([&] {
+        std::erase_if(tasks_, [](const Task& task) { return task.pixel.has_value(); });
+        tasks_.push_back({pixel, sample, {}, {}});
+    });
 }
 
 void LiveRender::save(const std::string& exr, const std::string& png) {

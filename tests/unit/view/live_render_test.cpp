@@ -120,6 +120,17 @@ TEST_F(LiveRenderTest, APixelBeyondTheImageIsTheNearestOne) {
     EXPECT_EQ(inspect({4000, 3000}).pixel, glm::uvec2(19, 14));
 }
 
+// Clicks that come faster than paths are traced do not keep the next order, or the end, waiting.
+TEST_F(LiveRenderTest, OnlyTheNewestClickIsAnswered) {
+    render_.show(requestFor("cornell-box"));
+    (void)waitForImage();
+    const auto before = std::chrono::steady_clock::now();
+    for (uint32_t i = 0; i < 1000; ++i)
+        render_.inspect({i % 40, 7}, 0);
+    (void)waitFor([](const LiveNews& n) { return n.inspection && n.inspection->pixel == glm::uvec2(39, 7); });
+    EXPECT_LT(std::chrono::steady_clock::now() - before, std::chrono::seconds(20));
+}
+
 TEST_F(LiveRenderTest, OrdersOfEveryKindInAnyOrderEndInTheImageOfTheLastOne) {
     const TemporaryFolder folder;
     const LiveRequest last = requestFor("cornell-box");
