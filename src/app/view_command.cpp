@@ -7,6 +7,7 @@
 #include "app/environment_options.h"
 #include "base/error.h"
 #include "base/log.h"
+#include "base/memory.h"
 #include "gpu/vulkan_error.h"
 #include "view/viewer.h"
 
@@ -40,6 +41,7 @@ RenderSettings ViewCommand::settings() {
 }
 
 int ViewCommand::run() {
+    returnLargeBlocks();
     RenderSettings settings = this->settings();
     if (!isNotWatching_)
         shaders_.watchIfThere();

@@ -10,6 +10,9 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 #include <unistd.h>
+#ifdef __GLIBC__ // which the headers before this line say
+#include <malloc.h>
+#endif
 
 namespace lavalight {
 namespace {
@@ -82,6 +85,13 @@ std::string memoryShortage(uint64_t bytes) {
     if (bytes <= available)
         return {};
     return fmt::format("take {} of memory, {} are available", textOf(bytes), textOf(available));
+}
+
+void returnLargeBlocks() {
+#ifdef __GLIBC__
+    constexpr int kLarge = 1 << 20; // bytes
+    mallopt(M_MMAP_THRESHOLD, kLarge);
+#endif
 }
 
 } // namespace lavalight

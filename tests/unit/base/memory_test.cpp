@@ -1,7 +1,13 @@
 // Tests of asking for memory before it is taken.
 #include "base/memory.h"
 
+#include <cstdlib>
+#include <memory>
+
 #include <gtest/gtest.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 #include "base/error.h"
 #include "base/file.h"
@@ -43,6 +49,29 @@ TEST(Memory, FilesBeyondItAreRefusedByTheirSize) {
             << error.what();
     }
 }
+
+#ifdef __GLIBC__
+// Blocks that glibc has from the system and gives back to it. None with a sanitizer or valgrind, which have
+// allocators of their own.
+size_t mappedBlocks() {
+    return mallinfo2().hblks;
+}
+
+TEST(Memory, LargeBlocksGoBackToTheSystemAfterLargerOnesWereFreed) {
+    constexpr size_t kBytes = 8u << 20;
+    struct Free {
+        void operator()(void* block) const { std::free(block); }
+    };
+    using Block = std::unique_ptr<void, Free>;
+    if (const size_t before = mappedBlocks(); Block(std::malloc(4 * kBytes)) && mappedBlocks() == before)
+        GTEST_SKIP() << "another allocator";
+    returnLargeBlocks();
+    Block(std::malloc(2 * kBytes)).reset(); // by itself, glibc would raise its limit now
+    const size_t before = mappedBlocks();
+    const Block block(std::malloc(kBytes));
+    EXPECT_EQ(mappedBlocks(), before + 1);
+}
+#endif
 
 } // namespace
 } // namespace lavalight::test
