@@ -47,6 +47,16 @@ struct Extent {
     [[nodiscard]] Extent times(double count) const { return {count * triangles, count * bytes}; }
 };
 
+// Vertices that triangles use, at most.
+double usedVertices(const GltfDocument& document, const tinygltf::Primitive& primitive) {
+    const auto triangles = static_cast<double>(triangleCount(primitive, document));
+    if (triangles == 0.0)
+        return 0.0;
+    const int positions = primitive.attributes.at("POSITION");
+    const size_t vertices = document.model.accessors.at(static_cast<size_t>(positions)).count;
+    return std::min(3.0 * triangles, static_cast<double>(vertices));
+}
+
 Extent extentOf(const GltfDocument& document, const tinygltf::Primitive& primitive) {
     const auto triangles = static_cast<double>(triangleCount(primitive, document));
     if (triangles == 0.0)
@@ -57,11 +67,9 @@ Extent extentOf(const GltfDocument& document, const tinygltf::Primitive& primiti
         vertexBytes += attribute == "COLOR_0" ? sizeof(glm::vec4) : 0;
         vertexBytes += attribute.starts_with("TEXCOORD_") ? sizeof(glm::vec2) : 0;
     }
-    const size_t vertices =
-        document.model.accessors.at(static_cast<size_t>(primitive.attributes.at("POSITION"))).count;
-    const double used = std::min(3.0 * triangles, static_cast<double>(vertices));
     constexpr double kAllocations = 128.0; // of a mesh, and its name
-    return {triangles, sizeof(Mesh) + kAllocations + used * static_cast<double>(vertexBytes) +
+    return {triangles, sizeof(Mesh) + kAllocations +
+                           usedVertices(document, primitive) * static_cast<double>(vertexBytes) +
                            triangles * sizeof(glm::uvec3)};
 }
 
@@ -84,6 +92,27 @@ void requireFitting(const GltfDocument& document, const MeshInstances& instances
     if (const std::string shortage = memoryShortage(static_cast<uint64_t>(total.bytes)); !shortage.empty())
         throw document.error(fmt::format("the {:.0f} triangles that it draws {}: simplify the scene",
                                          total.triangles, shortage));
+}
+
+// Nodes that show one mesh multiply its targets, which may all be of the same few values.
+void requireFewMorphs(const GltfDocument& document, const MeshInstances& instances, const Pose& pose) {
+    constexpr double kMost = 1e10; // 4 ns each: 40 seconds
+    double steps = 0.0;
+    for (size_t i = 0; i < instances.size(); ++i) {
+        for (const tinygltf::Primitive& primitive : document.model.meshes[i].primitives) {
+            if (primitive.targets.empty())
+                continue;
+            const double vertices = usedVertices(document, primitive);
+            for (const PlacedNode* placed : instances[i]) {
+                steps += morphSteps(primitive, vertices, morphWeights(document, placed->node, pose));
+                if (steps > kMost)
+                    throw document.error(
+                        fmt::format("its morph targets move vertices more than {:.0e} times: "
+                                    "simplify the scene",
+                                    kMost));
+            }
+        }
+    }
 }
 
 void noteUnread(const GltfDocument& document, const tinygltf::Primitive& primitive, const std::string& name,
@@ -223,6 +252,7 @@ std::vector<Mesh> readMeshes(const GltfDocument& document, const NodeTree& tree,
                              const std::vector<Material>& materials, GltfNotes& notes) {
     const MeshInstances instances = groupByMesh(document, tree.shown);
     requireFitting(document, instances);
+    requireFewMorphs(document, instances, tree.pose);
     MeshReader reader(document, tree, materials, notes);
     for (size_t i = 0; i < instances.size(); ++i) {
         if (!instances[i].empty())

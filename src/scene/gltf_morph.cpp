@@ -65,7 +65,7 @@ void addColors(const GltfDocument& document, const std::vector<uint32_t>& vertic
 
 } // namespace
 
-std::vector<double> morphWeights(const GltfDocument& document, int node, const Pose& pose) {
+const std::vector<double>& morphWeights(const GltfDocument& document, int node, const Pose& pose) {
     const auto index = static_cast<size_t>(node);
     const tinygltf::Node& source = document.model.nodes.at(index);
     if (index < pose.size() && !pose[index].weights.empty())
@@ -73,6 +73,16 @@ std::vector<double> morphWeights(const GltfDocument& document, int node, const P
     if (!source.weights.empty())
         return source.weights;
     return document.model.meshes.at(static_cast<size_t>(source.mesh)).weights;
+}
+
+double morphSteps(const tinygltf::Primitive& primitive, double vertices, const std::vector<double>& weights) {
+    const size_t count = std::min(primitive.targets.size(), weights.size());
+    auto steps = static_cast<double>(count);
+    for (size_t i = 0; i < count; ++i) {
+        if (weights[i] != 0.0)
+            steps += vertices * static_cast<double>(primitive.targets[i].size());
+    }
+    return steps;
 }
 
 void applyMorphTargets(const GltfDocument& document, const tinygltf::Primitive& primitive,

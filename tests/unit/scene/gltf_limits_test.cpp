@@ -113,6 +113,29 @@ std::vector<char> largePng() {
     return bytes;
 }
 
+// 66,666 vertices, 1,000 targets that share one accessor, and nodes that share the mesh: 16,000 bytes.
+GltfBuilder manyMorphs(size_t nodes) {
+    constexpr size_t kVertices = 66'666;
+    GltfBuilder builder = goodFile();
+    Json& mesh = builder.json["meshes"][0];
+    const int positions = addZeros(builder, kVertices, "VEC3");
+    mesh["primitives"][0] = {{"attributes", {{"POSITION", positions}}}};
+    mesh["primitives"][0]["targets"] = std::vector<Json>(1000, {{"POSITION", positions}});
+    mesh["weights"] = std::vector<int>(1000, 1);
+    for (size_t i = 1; i < nodes; ++i) // the file has one
+        builder.addNode({{"mesh", 0}});
+    return builder;
+}
+
+TEST(GltfLimits, MorphTargetsThatWouldTakeMinutesAreRefused) {
+    expectQuickError(manyMorphs(200),
+                     "its morph targets move vertices more than 1e+10 times: simplify the scene");
+    EXPECT_EQ(quickError(manyMorphs(1).glb()), "");
+    GltfBuilder still = manyMorphs(200);
+    still.json["meshes"][0]["weights"] = std::vector<int>(1000, 0);
+    EXPECT_EQ(quickError(still.glb()), ""); // targets without a weight move nothing
+}
+
 TEST(GltfLimits, PicturesBeyondATexelBufferAreRefusedBeforeTheyAreDecoded) {
     GltfBuilder builder = goodFile();
     const int view = builder.addView(largePng());
