@@ -115,7 +115,8 @@ TEST_F(LabCommandTest, BothSkiesAreFoundByBothDensities) {
 }
 
 TEST_F(LabCommandTest, LightsArePickedWithoutBias) {
-    for (const json& row : table("lights", "spheres").at("rows")) {
+    const json rows = table("lights", "spheres").at("rows");
+    for (const json& row : rows) {
         expectUnbiased(row);
         expectTheVarianceOfTheory(row);
     }
