@@ -78,7 +78,7 @@ int TraceCommand::run() {
     const KernelSource source = sourceOf(shaders_.overlay());
     gpu::Device device(options_.device());
     const Renderer renderer(device, scene, camera, settings, source);
-    const TracedPath path = tracePath(device, renderer, pixel, sample_, source);
+    const TracedPath path = PathTracer(device, renderer, source).trace(renderer, pixel, sample_);
     device.requireNoValidationMessages();
 
     Json json;

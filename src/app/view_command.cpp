@@ -41,7 +41,7 @@ RenderSettings ViewCommand::settings() {
 }
 
 int ViewCommand::run() {
-    returnLargeBlocks();
+    keepHeapSmall();
     RenderSettings settings = this->settings();
     if (!isNotWatching_)
         shaders_.watchIfThere();

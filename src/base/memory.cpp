@@ -87,10 +87,11 @@ std::string memoryShortage(uint64_t bytes) {
     return fmt::format("take {} of memory, {} are available", textOf(bytes), textOf(available));
 }
 
-void returnLargeBlocks() {
+void keepHeapSmall() {
 #ifdef __GLIBC__
     constexpr int kLarge = 1 << 20; // bytes
     mallopt(M_MMAP_THRESHOLD, kLarge);
+    mallopt(M_ARENA_MAX, 2);
 #endif
 }
 

@@ -1,32 +1,40 @@
 #include "render/path_trace.h"
 
+#include <algorithm>
 #include <cassert>
 #include <span>
 
 #include "gpu/buffer.h"
 #include "gpu/commands.h"
-#include "gpu/kernel.h"
 
 namespace lavalight {
 
-TracedPath tracePath(gpu::Device& device, const Renderer& renderer, const glm::uvec2& pixel, uint32_t sample,
-                     const KernelSource& source) {
+PathTracer::PathTracer(gpu::Device& device, const Renderer& renderer, const KernelSource& source)
+    : device_(&device),
+      constants_(renderer.kernels().constants().begin(), renderer.kernels().constants().end()),
+      kernel_(device, source("trace_path"), constants_) {}
+
+bool PathTracer::serves(const Renderer& renderer) const {
+    return std::ranges::equal(constants_, renderer.kernels().constants());
+}
+
+TracedPath PathTracer::trace(const Renderer& renderer, const glm::uvec2& pixel, uint32_t sample) const {
+    assert(serves(renderer));
     const FrameParameters& frame = renderer.frame();
     assert(pixel.x < frame.imageWidth && pixel.y < frame.imageHeight);
-    gpu::Buffer uniforms(device, "frame parameters", sizeof(FrameParameters), gpu::BufferUse::uniform);
+    gpu::Buffer uniforms(*device_, "frame parameters", sizeof(FrameParameters), gpu::BufferUse::uniform);
     uniforms.upload(std::span(&frame, 1));
-    const gpu::Buffer ray(device, "ray", sizeof(Ray), gpu::BufferUse::storage);
-    const gpu::Buffer path(device, "path", sizeof(Path), gpu::BufferUse::storage);
-    const gpu::Buffer traced(device, "traced vertex", sizeof(TracedVertex), gpu::BufferUse::storage);
+    const gpu::Buffer ray(*device_, "ray", sizeof(Ray), gpu::BufferUse::storage);
+    const gpu::Buffer path(*device_, "path", sizeof(Path), gpu::BufferUse::storage);
+    const gpu::Buffer traced(*device_, "traced vertex", sizeof(TracedVertex), gpu::BufferUse::storage);
     gpu::ResourceTable resources;
     renderer.scene().addTo(resources);
     resources.set("Frame", uniforms);
     resources.set("Rays", ray);
     resources.set("Paths", path);
     resources.set("TracedOut", traced);
-    const gpu::Kernel kernel(device, source("trace_path"), renderer.kernels().constants());
-    const gpu::BoundKernel bound(device, kernel, resources);
-    gpu::Commands commands(device);
+    const gpu::BoundKernel bound(*device_, kernel_, resources);
+    gpu::Commands commands(*device_);
 
     TracedPath result;
     WaveRange range{};

@@ -7,6 +7,7 @@
 #include <glm/glm.hpp>
 
 #include "gpu/device.h"
+#include "gpu/kernel.h"
 #include "render/kernel_source.h"
 #include "render/renderer.h"
 #include "shared/traced_path.h"
@@ -18,9 +19,23 @@ struct TracedPath {
     glm::vec3 radiance{0.0f};           // that the sample adds to its pixel
 };
 
-// The path that sample number `sample` of `pixel` (from the top left) takes with the renderer's scene, camera
-// and settings; the kernel trace_path has the estimator's own functions. The pixel must lie in the image.
-[[nodiscard]] TracedPath tracePath(gpu::Device& device, const Renderer& renderer, const glm::uvec2& pixel,
-                                   uint32_t sample, const KernelSource& source = embeddedKernel);
+// Follows paths with the kernel trace_path, which has the estimator's own functions and is compiled once.
+class PathTracer {
+  public:
+    // For renders with the renderer's estimator and features. The device must outlive it. Throws Error.
+    PathTracer(gpu::Device& device, const Renderer& renderer, const KernelSource& source = embeddedKernel);
+
+    // Whether its kernel is that of the renderer's estimator and features.
+    [[nodiscard]] bool serves(const Renderer& renderer) const;
+
+    // The path that sample number `sample` of `pixel` (from the top left) takes with the renderer's scene,
+    // camera and settings. The pixel must lie in the image, and the renderer be one that this serves.
+    [[nodiscard]] TracedPath trace(const Renderer& renderer, const glm::uvec2& pixel, uint32_t sample) const;
+
+  private:
+    gpu::Device* device_;
+    std::vector<gpu::SpecialisationConstant> constants_;
+    gpu::Kernel kernel_;
+};
 
 } // namespace lavalight

@@ -43,6 +43,8 @@ RenderSettings LiveSide::filmSettings(const LiveRequest& request) const {
 }
 
 void LiveSide::show(const LiveRequest& request) {
+    if (request_ && request_->shaders != request.shaders)
+        tracer_.reset();
     const Restart restart = renderer_ ? restartsImage(*request_, request) : Restart::scene;
     if (restart == Restart::image) {
         restartImage(request);
@@ -118,7 +120,7 @@ LiveView LiveSide::view() {
     return {{film.width(), film.height(), toneMapper_->map(film, request_->tone)}, statistics_};
 }
 
-PixelInspection LiveSide::inspect(const glm::uvec2& pixel, uint32_t sample) const {
+PixelInspection LiveSide::inspect(const glm::uvec2& pixel, uint32_t sample) {
     PixelInspection inspection;
     inspection.scene = request_->scene;
     const Film& film = renderer_->film();
@@ -132,7 +134,9 @@ PixelInspection LiveSide::inspect(const glm::uvec2& pixel, uint32_t sample) cons
     inspection.variance = rendering.variance.pixels[at];
     inspection.count = rendering.sampleCounts[at];
     inspection.sample = sample;
-    inspection.path = tracePath(*device_, *renderer_, inspection.pixel, sample, sourceOf(request_->shaders));
+    if (!tracer_ || !tracer_->serves(*renderer_))
+        tracer_.emplace(*device_, *renderer_, sourceOf(request_->shaders));
+    inspection.path = tracer_->trace(*renderer_, inspection.pixel, sample);
     return inspection;
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "gpu/device.h"
+#include "render/path_trace.h"
 #include "render/renderer.h"
 #include "render/tone_mapper.h"
 #include "view/live_picture.h"
@@ -29,8 +30,8 @@ class LiveSide {
     [[nodiscard]] double seconds() const { return statistics_.seconds; }
 
     [[nodiscard]] LiveView view();
-    // Of the pixel nearest to that one, of the request's size.
-    [[nodiscard]] PixelInspection inspect(const glm::uvec2& pixel, uint32_t sample) const;
+    // Of the pixel nearest to that one, of the request's size. The first one compiles a kernel.
+    [[nodiscard]] PixelInspection inspect(const glm::uvec2& pixel, uint32_t sample);
     // There must be an image.
     [[nodiscard]] const Renderer& renderer() const { return *renderer_; }
     [[nodiscard]] const LiveRequest& request() const { return *request_; }
@@ -45,6 +46,7 @@ class LiveSide {
     ToneMapper* toneMapper_;
     std::optional<LiveRequest> request_;
     std::unique_ptr<Renderer> renderer_;
+    std::optional<PathTracer> tracer_; // with the request's shaders
     LiveStatistics statistics_;
     double secondsPerPath_ = 1e-6; // a first guess; then measured
     uint32_t nextErrorAt_ = 2;     // samples

@@ -5,12 +5,15 @@
 #include <fstream>
 #include <memory>
 #include <random>
+#include <set>
 #include <string>
 #include <thread>
 
 #include <gtest/gtest.h>
 
+#include "base/file.h"
 #include "image/exr.h"
+#include "render/path_trace.h"
 #include "render/renderer.h"
 #include "render/tone_mapper.h"
 #include "scene/builtin.h"
@@ -109,6 +112,30 @@ TEST_F(LiveRenderTest, PathsAreOfTheSceneThatWasRendered) {
     EXPECT_EQ(inspect({20, 15}).scene, plates.scene) << "what is asked at once waits for the image";
 }
 
+// A kernel that follows paths serves until settings or shaders change.
+TEST_F(LiveRenderTest, PathsAreOfTheEstimatorAndShadersThatAreShown) {
+    const TemporaryFolder folder;
+    std::filesystem::create_directory(folder / "lib");
+    std::string diffuse = readFile(LAVALIGHT_SOURCE_DIR "/shaders/lib/bsdf_diffuse.glsl");
+    diffuse.insert(diffuse.find("kInvPi * max"), "0.9 * ");
+    std::ofstream(folder / "lib/bsdf_diffuse.glsl") << diffuse;
+    const LiveRequest plain = requestFor("cornell-box");
+    LiveRequest scattered = plain; // without light samples
+    scattered.settings.estimator.nextEventEstimation = false;
+    LiveRequest darker = plain;
+    darker.shaders = std::make_shared<ShaderOverlay>(folder.path());
+    std::set<float> different;
+    for (const LiveRequest& request : {plain, scattered, darker}) {
+        render_.show(request);
+        const float shown = inspect({12, 22}).path.radiance.g;
+        const KernelSource source = sourceOf(request.shaders);
+        const Renderer renderer(device(), *request.scene, request.camera, request.settings, source);
+        EXPECT_EQ(shown, PathTracer(device(), renderer, source).trace(renderer, {12, 22}, 0).radiance.g);
+        different.insert(shown);
+    }
+    EXPECT_EQ(different.size(), 3u);
+}
+
 // A click, then a smaller window before it is answered.
 TEST_F(LiveRenderTest, APixelBeyondTheImageIsTheNearestOne) {
     LiveRequest request = requestFor("cornell-box");
@@ -125,7 +152,7 @@ TEST_F(LiveRenderTest, OnlyTheNewestClickIsAnswered) {
     render_.show(requestFor("cornell-box"));
     (void)waitForImage();
     const auto before = std::chrono::steady_clock::now();
-    for (uint32_t i = 0; i < 1000; ++i)
+    for (uint32_t i = 0; i < 100'000; ++i)
         render_.inspect({i % 40, 7}, 0);
     (void)waitFor([](const LiveNews& n) { return n.inspection && n.inspection->pixel == glm::uvec2(39, 7); });
     EXPECT_LT(std::chrono::steady_clock::now() - before, std::chrono::seconds(20));
