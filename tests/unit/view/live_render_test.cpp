@@ -125,7 +125,7 @@ TEST_F(LiveRenderTest, PathsAreOfTheEstimatorAndShadersThatAreShown) {
     LiveRequest darker = plain;
     darker.shaders = std::make_shared<ShaderOverlay>(folder.path());
     std::set<float> different;
-    for (const LiveRequest& request : {plain, scattered, darker}) {
+    for (const LiveRequest& request : {plain, darker, scattered}) {
         render_.show(request);
         const float shown = inspect({12, 22}).path.radiance.g;
         const KernelSource source = sourceOf(request.shaders);
