@@ -1,0 +1,287 @@
+// The panels, without a window: a mouse finds their items by where they are, and clicks.
+#include "view/panel.h"
+
+#include <limits>
+#include <memory>
+#include <optional>
+#include <sstream>
+#include <string>
+
+#include <gtest/gtest-spi.h>
+#include <gtest/gtest.h>
+#include <imgui.h>
+#include <imgui_internal.h>
+
+#include "render/presets.h"
+#include "scene/builtin.h"
+#include "view/inspector_panel.h"
+
+namespace lavalight::test {
+namespace {
+
+// A Cornell box with a second camera, a map, variants and an animation.
+std::shared_ptr<const Scene> furnishedScene() {
+    Scene scene = loadScene("cornell-box");
+    scene.cameras.push_back(scene.cameras.front());
+    scene.cameras.back().name = "above";
+    scene.cameras.back().position.y += 1.0f;
+    scene.environmentMap = EnvironmentMap{};
+    scene.variants = {"beach", "street"};
+    scene.animations = {{"wave", 2.0f}};
+    return std::make_shared<const Scene>(std::move(scene));
+}
+
+ViewState viewOf(const std::shared_ptr<const Scene>& scene) {
+    const Camera& camera = scene->cameras.front();
+    return {"test.gltf", {}, scene, CameraRig(camera, scene->bounds), camera, {}, {}, {}};
+}
+
+class PanelTest : public testing::Test {
+  protected:
+    PanelTest() {
+        ImGui::CreateContext();
+        ImGuiIO& io = ImGui::GetIO();
+        io.IniFilename = nullptr;
+        io.DisplaySize = ImVec2(800.0f, 1000.0f);
+        io.DeltaTime = 0.1f;
+        unsigned char* pixels = nullptr;
+        int width = 0;
+        int height = 0;
+        io.Fonts->GetTexDataAsRGBA32(&pixels, &width, &height);
+    }
+    ~PanelTest() override { ImGui::DestroyContext(); }
+
+    void draw() {
+        if (inspection_) {
+            drawPath(*inspection_, view_, glm::vec2(800.0f, 1000.0f));
+            wantsSample_ |= drawInspector(*inspection_, sample_);
+        } else {
+            const PanelAnswer answer = drawPanel(view_, {statistics_, statistics_});
+            wantsScene_ |= answer.wantsScene;
+            wantsSave_ |= answer.wantsSave;
+        }
+    }
+    void frame() {
+        ImGui::NewFrame();
+        draw();
+        ImGui::Render();
+    }
+
+    // All that is written on the panel, which has been there before.
+    std::string text() {
+        frame();
+        ImGui::NewFrame();
+        ImGui::LogToClipboard(); // ImGui's own, and until the panel's end
+        draw();
+        ImGui::Render();
+        return ImGui::GetClipboardText();
+    }
+
+    // Where the mouse is over the item, from its left; it must be there. "left/MIS": of the scope "left".
+    ImVec2 find(const std::string& window, const std::string& label) {
+        frame();
+        const ImGuiWindow* const place = ImGui::FindWindowByName(window.c_str());
+        if (place == nullptr) {
+            ADD_FAILURE() << "no window " << window;
+            return {};
+        }
+        ImGuiID id = place->ID;
+        std::istringstream scopes(label);
+        for (std::string name; std::getline(scopes, name, '/');)
+            id = ImHashStr(name.c_str(), 0, id);
+        for (float y = place->Pos.y; y < place->Pos.y + place->Size.y; y += 4.0f) {
+            for (float x = place->Pos.x + 8.0f; x < place->Pos.x + 120.0f; x += 8.0f) {
+                moveTo(ImVec2(x, y));
+                if (ImGui::GetCurrentContext()->HoveredId == id)
+                    return {x, y};
+            }
+        }
+        ADD_FAILURE() << "no " << label << " in " << window;
+        return {};
+    }
+    void moveTo(const ImVec2& at) {
+        ImGui::GetIO().MousePos = at;
+        frame();
+    }
+    void click(const std::string& window, const std::string& label) {
+        moveTo(find(window, label));
+        ImGui::GetIO().MouseDown[0] = true;
+        frame();
+        ImGui::GetIO().MouseDown[0] = false;
+        frame();
+        frame();
+    }
+    // Presses on a slider or number, and moves the mouse right.
+    void drag(const std::string& window, const std::string& label, float pixels) {
+        const ImVec2 at = find(window, label);
+        moveTo(at);
+        ImGui::GetIO().MouseDown[0] = true;
+        frame();
+        moveTo(ImVec2(at.x + pixels, at.y));
+        ImGui::GetIO().MouseDown[0] = false;
+        frame();
+    }
+    void choose(const std::string& label, const std::string& entry) {
+        click("Lavalight", label);
+        click("##Combo_00", entry);
+    }
+
+    ViewState view_ = viewOf(furnishedScene());
+    std::optional<LiveStatistics> statistics_;
+    std::optional<PixelInspection> inspection_;
+    uint32_t sample_ = 0;
+    bool wantsSample_ = false;
+    bool wantsScene_ = false;
+    bool wantsSave_ = false;
+};
+
+// Its items come above those that stand open.
+class ScenePanelTest : public PanelTest {
+  protected:
+    ScenePanelTest() {
+        for (const char* header : {"Estimator", "Screen", "Scene"})
+            click("Lavalight", header);
+    }
+};
+
+TEST_F(ScenePanelTest, CameraIsChosenAndHomeIsThere) {
+    view_.homeOptions = {{"camera-position", "1,2,3"}};
+    choose("camera", "above");
+    EXPECT_EQ(view_.home.name, "above");
+    EXPECT_TRUE(view_.homeOptions.empty());
+    EXPECT_EQ(view_.rig.camera().position, view_.scene->cameras.back().position);
+    EXPECT_FALSE(wantsScene_);
+}
+
+TEST_F(ScenePanelTest, LensIsOpenedAndFocused) {
+    const float before = view_.rig.camera().verticalFov;
+    drag("Lavalight", "field of view", 60.0f);
+    EXPECT_GT(view_.rig.camera().verticalFov, before);
+    EXPECT_EQ(view_.rig.camera().lensRadius, 0.0f);
+    drag("Lavalight", "aperture", 60.0f);
+    EXPECT_GT(view_.rig.camera().lensRadius, 0.0f);
+    const float focus = view_.rig.camera().focusDistance;
+    drag("Lavalight", "focus", 60.0f);
+    EXPECT_NE(view_.rig.camera().focusDistance, focus);
+}
+
+TEST_F(ScenePanelTest, EnvironmentIsTurnedAndDimmedWithoutReadingTheScene) {
+    drag("Lavalight", "map's rotation", 20.0f);
+    EXPECT_NE(view_.settings.environmentRotation, 0.0f);
+    drag("Lavalight", "environment", 50.0f);
+    EXPECT_GT(view_.settings.environmentIntensity, 1.0f);
+    EXPECT_FALSE(wantsScene_);
+}
+
+TEST_F(ScenePanelTest, VariantAndMomentAskForTheScene) {
+    choose("variant", "street");
+    EXPECT_EQ(view_.import.variant, "street");
+    EXPECT_TRUE(wantsScene_);
+    wantsScene_ = false;
+    choose("variant", "street");
+    EXPECT_FALSE(wantsScene_) << "it is there already";
+    choose("variant", "as the file has it");
+    EXPECT_EQ(view_.import.variant, "");
+    EXPECT_TRUE(wantsScene_);
+    wantsScene_ = false;
+    drag("Lavalight", "moment", 60.0f);
+    EXPECT_GT(view_.import.seconds.value(), 0.0);
+    EXPECT_LE(view_.import.seconds.value(), 2.0);
+    EXPECT_TRUE(wantsScene_);
+}
+
+TEST_F(ScenePanelTest, AScenesPanelOffersOnlyWhatItHas) {
+    view_ = viewOf(std::make_shared<const Scene>(loadScene("cornell-box")));
+    frame();
+    EXPECT_NONFATAL_FAILURE(find("Lavalight", "variant"), "no variant");
+    EXPECT_NONFATAL_FAILURE(find("Lavalight", "moment"), "no moment");
+    EXPECT_NONFATAL_FAILURE(find("Lavalight", "map's rotation"), "no map's rotation");
+}
+
+TEST_F(PanelTest, SavesWithItsButton) {
+    click("Lavalight", "save EXR and PNG");
+    EXPECT_TRUE(wantsSave_);
+}
+
+// Presets are single settings of the lecture, but for the seed.
+TEST_F(PanelTest, PresetChangesTheEstimatorAndKeepsTheSeed) {
+    view_.settings.estimator.seed = 17;
+    const Preset& preset = presets().front();
+    choose("left/preset", std::string(preset.name));
+    EstimatorSettings wanted = preset.settings;
+    wanted.seed = 17;
+    EXPECT_EQ(view_.settings.estimator, wanted);
+    EXPECT_NE(wanted, EstimatorSettings{}) << "a preset that changes nothing shows nothing";
+}
+
+TEST_F(PanelTest, SettingsThatOthersNeedComeAndGoWithThem) {
+    const EstimatorSettings& estimator = view_.settings.estimator;
+    EXPECT_NONFATAL_FAILURE(find("Lavalight", "left/survival"), "no left/survival");
+    choose("left/roulette", "constant");
+    EXPECT_EQ(estimator.roulette, Roulette::constant);
+    drag("Lavalight", "left/survival", 40.0f);
+    EXPECT_NE(estimator.rouletteProbability, EstimatorSettings{}.rouletteProbability);
+    click("Lavalight", "left/MIS counts survival");
+    EXPECT_TRUE(estimator.misSurvival);
+    choose("left/roulette", "throughput");
+    EXPECT_FALSE(estimator.misSurvival) << "it has no meaning there";
+    click("Lavalight", "left/clamp indirect light");
+    EXPECT_EQ(estimator.clampIndirect, 10.0f);
+    drag("Lavalight", "left/at most", 50.0f);
+    EXPECT_GT(estimator.clampIndirect, 10.0f);
+    click("Lavalight", "left/clamp indirect light");
+    EXPECT_EQ(estimator.clampIndirect, std::numeric_limits<float>::infinity());
+}
+
+TEST_F(PanelTest, TheRightSideHasAnEstimatorOfItsOwn) {
+    click("Lavalight", "left/compare");
+    ASSERT_TRUE(view_.isSplit);
+    click("Lavalight", "Estimator");
+    click("Lavalight", "right/next-event estimation");
+    EXPECT_FALSE(view_.other.nextEventEstimation);
+    EXPECT_TRUE(view_.settings.estimator.nextEventEstimation);
+}
+
+TEST_F(PanelTest, StatisticsTellSharesAndRates) {
+    statistics_ = LiveStatistics{};
+    statistics_->samples = 7;
+    statistics_->seconds = 2.0;
+    statistics_->paths = 3'000'000;
+    EXPECT_NE(text().find("error not known yet"), std::string::npos);
+    statistics_->error = 0.0004;
+    statistics_->kernels = {{"extend", {3.0, 1}}, {"shade", {1.0, 1}}};
+    statistics_->raysPerBounce = {100, 50, 0, 0};
+    const std::string shown = text();
+    for (const char* words : {"7 samples in 2.0 s", "1.50 M paths/s", "error 2.0 %", "extend 75 %",
+                              "shade 25 %", "queue by bounce"})
+        EXPECT_NE(shown.find(words), std::string::npos) << words << " in " << shown;
+}
+
+PixelInspection inspectionOf(const std::shared_ptr<const Scene>& scene) {
+    PixelInspection inspection;
+    inspection.scene = scene;
+    inspection.sample = 3;
+    TracedVertex wall{};
+    wall.position = scene->bounds.upper;
+    wall.t = 1.0f;
+    wall.flags = kTracedShadowRay | kTracedGoesOn;
+    TracedVertex sky{};
+    sky.t = std::numeric_limits<float>::infinity();
+    sky.material = 0xffffffffu; // of no material
+    inspection.path.vertices = {wall, wall, sky};
+    return inspection;
+}
+
+TEST_F(PanelTest, InspectorAsksForAnotherSampleAndKnowsThatTheSkyHasNoMaterial) {
+    inspection_ = inspectionOf(view_.scene);
+    const std::string shown = text();
+    EXPECT_NE(shown.find("environment"), std::string::npos) << shown;
+    EXPECT_NE(shown.find(view_.scene->materials.front().name), std::string::npos) << shown;
+    EXPECT_EQ(sample_, 3u);
+    EXPECT_FALSE(wantsSample_);
+    drag("Pixel", "sample", 50.0f);
+    EXPECT_TRUE(wantsSample_);
+}
+
+} // namespace
+} // namespace lavalight::test
