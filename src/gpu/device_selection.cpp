@@ -38,31 +38,6 @@ std::string typeText(vk::PhysicalDeviceType type) {
     }
 }
 
-// Refusals that need Vulkan 1.1's property chain; only asked of devices that have it.
-void refuseBySubgroups(const vk::PhysicalDeviceSubgroupProperties& subgroup,
-                       std::vector<std::string>& refusals) {
-    if (!(subgroup.supportedStages & vk::ShaderStageFlagBits::eCompute))
-        refusals.emplace_back("no subgroup operations in compute shaders");
-    const auto needed = vk::SubgroupFeatureFlagBits::eBasic | vk::SubgroupFeatureFlagBits::eBallot;
-    if ((subgroup.supportedOperations & needed) != needed)
-        refusals.emplace_back("no subgroup ballot (needed to compact the queues)");
-}
-
-void refuseByLimits(const vk::PhysicalDeviceLimits& limits, std::vector<std::string>& refusals) {
-    if (limits.maxPerStageDescriptorStorageBuffers < kStorageBuffers)
-        refusals.push_back(fmt::format("{} storage buffers per stage, {} needed",
-                                       limits.maxPerStageDescriptorStorageBuffers, kStorageBuffers));
-    if (limits.maxPerStageDescriptorSampledImages < kTexelBuffers)
-        refusals.push_back(fmt::format("{} texel buffers per stage, {} needed",
-                                       limits.maxPerStageDescriptorSampledImages, kTexelBuffers));
-    if (limits.maxComputeWorkGroupInvocations < kWorkgroupSize)
-        refusals.push_back(fmt::format("workgroups of {} invocations at most, {} needed",
-                                       limits.maxComputeWorkGroupInvocations, kWorkgroupSize));
-    if (limits.maxTexelBufferElements < kMinTexelElements)
-        refusals.push_back(fmt::format("texel buffers of {} elements at most, {} needed",
-                                       limits.maxTexelBufferElements, kMinTexelElements));
-}
-
 std::string lowerCase(std::string text) {
     std::transform(text.begin(), text.end(), text.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -100,6 +75,29 @@ std::optional<uint32_t> findComputeFamily(const vk::raii::PhysicalDevice& physic
     return found;
 }
 
+std::vector<std::string> whatIsMissing(const vk::PhysicalDeviceLimits& limits,
+                                       const vk::PhysicalDeviceSubgroupProperties& subgroup) {
+    std::vector<std::string> missing;
+    if (!(subgroup.supportedStages & vk::ShaderStageFlagBits::eCompute))
+        missing.emplace_back("no subgroup operations in compute shaders");
+    const auto needed = vk::SubgroupFeatureFlagBits::eBasic | vk::SubgroupFeatureFlagBits::eBallot;
+    if ((subgroup.supportedOperations & needed) != needed)
+        missing.emplace_back("no subgroup ballot (needed to compact the queues)");
+    if (limits.maxPerStageDescriptorStorageBuffers < kStorageBuffers)
+        missing.push_back(fmt::format("{} storage buffers per stage, {} needed",
+                                      limits.maxPerStageDescriptorStorageBuffers, kStorageBuffers));
+    if (limits.maxPerStageDescriptorSampledImages < kTexelBuffers)
+        missing.push_back(fmt::format("{} texel buffers per stage, {} needed",
+                                      limits.maxPerStageDescriptorSampledImages, kTexelBuffers));
+    if (limits.maxComputeWorkGroupInvocations < kWorkgroupSize)
+        missing.push_back(fmt::format("workgroups of {} invocations at most, {} needed",
+                                      limits.maxComputeWorkGroupInvocations, kWorkgroupSize));
+    if (limits.maxTexelBufferElements < kMinTexelElements)
+        missing.push_back(fmt::format("texel buffers of {} elements at most, {} needed",
+                                      limits.maxTexelBufferElements, kMinTexelElements));
+    return missing;
+}
+
 DeviceDescription describeDevice(const vk::raii::PhysicalDevice& physical, uint32_t index) {
     const vk::PhysicalDeviceProperties properties = physical.getProperties();
     DeviceDescription description;
@@ -117,9 +115,9 @@ DeviceDescription describeDevice(const vk::raii::PhysicalDevice& physical, uint3
                                     vk::PhysicalDeviceSubgroupProperties>();
         const auto& driver = chain.get<vk::PhysicalDeviceDriverProperties>();
         description.driver = fmt::format("{} {}", driver.driverName.data(), driver.driverInfo.data());
-        refuseBySubgroups(chain.get<vk::PhysicalDeviceSubgroupProperties>(), description.refusals);
+        description.refusals =
+            whatIsMissing(properties.limits, chain.get<vk::PhysicalDeviceSubgroupProperties>());
     }
-    refuseByLimits(properties.limits, description.refusals);
     if (!findComputeFamily(physical))
         description.refusals.emplace_back("no compute queue");
     return description;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include <vulkan/vulkan_raii.hpp>
@@ -12,6 +13,10 @@ namespace lavalight::gpu {
 
 // What `physical` is and every reason why it cannot render.
 [[nodiscard]] DeviceDescription describeDevice(const vk::raii::PhysicalDevice& physical, uint32_t index);
+
+// Why a device of these properties cannot run the kernels, a phrase each.
+[[nodiscard]] std::vector<std::string> whatIsMissing(const vk::PhysicalDeviceLimits& limits,
+                                                     const vk::PhysicalDeviceSubgroupProperties& subgroup);
 
 // The queue family for compute work that also has timestamps where possible; nullopt: none computes.
 [[nodiscard]] std::optional<uint32_t> findComputeFamily(const vk::raii::PhysicalDevice& physical);

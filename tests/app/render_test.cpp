@@ -2,7 +2,9 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <sstream>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -249,6 +251,37 @@ TEST_F(Render, PresetsAreStartingPoints) {
     EXPECT_EQ(keys.at("option:nee"), "off");
     EXPECT_EQ(keys.at("option:sampler"), "independent");
     EXPECT_EQ(keys.at("option:hemisphere"), "cosine");
+}
+
+using Options = std::map<std::string, std::string>;
+
+// "--nee on" or "as NAME, with --nee on" in the list of `lavalight presets`.
+Options optionsOf(const std::string& words, const std::map<std::string, Options>& known) {
+    Options options;
+    if (const size_t as = words.find("as "); as != std::string::npos)
+        options = known.at(words.substr(as + 3, words.find(", with") - as - 3));
+    std::istringstream rest(words.substr(words.find("--")));
+    for (std::string name, value; rest >> name >> value;)
+        options[name] = value;
+    return options;
+}
+
+TEST_F(Render, PresetsAreWhatTheirListSays) {
+    const ProgramResult list = runLavalight({"presets"}, folder_.path());
+    ASSERT_EQ(list.exitCode, 0) << list.err;
+    std::map<std::string, Options> presets;
+    std::istringstream lines(list.out);
+    for (std::string meaning, sets; std::getline(lines, meaning) && std::getline(lines, sets);) {
+        const std::string name = meaning.substr(0, meaning.find(' '));
+        presets[name] = optionsOf(sets, presets);
+        std::vector<std::string> words = {"-o", "options.exr"};
+        for (const auto& [option, value] : presets[name])
+            words.insert(words.end(), {option, value});
+        expectSuccess(words);
+        expectSuccess({"-o", "preset.exr", "--preset", name});
+        expectEqualPixels(image("preset.exr"), image("options.exr"));
+    }
+    EXPECT_EQ(presets.size(), 6u);
 }
 
 TEST_F(Render, InterruptionWritesTheImageSoFar) {

@@ -27,6 +27,15 @@ TEST(BuiltinScenes, CornellBoxLoadsWithLightCameraAndWithoutWarnings) {
     EXPECT_EQ(scene.warnings, std::vector<std::string>());
 }
 
+TEST(BuiltinScenes, FlatDenseSceneHasTheTrianglesAndNoNormals) {
+    const Scene round = loadScene("dense-5000");
+    const Scene flat = loadScene("dense-5000-flat");
+    EXPECT_EQ(flat.source, "dense-5000-flat");
+    EXPECT_EQ(flat.triangleCount(), round.triangleCount());
+    EXPECT_TRUE(std::ranges::all_of(flat.meshes, [](const Mesh& mesh) { return mesh.normals.empty(); }));
+    EXPECT_FALSE(std::ranges::all_of(round.meshes, [](const Mesh& mesh) { return mesh.normals.empty(); }));
+}
+
 TEST(BuiltinScenes, EveryListedFileLoadsWithACameraOfItsOwnAndWithoutWarnings) {
     for (const std::string& name : builtinNames()) {
         if (name == "dense-N" || name == "dense-N-flat" || name == "lamps-N")

@@ -195,7 +195,32 @@ TEST(GltfMorph, AnimatedWeightsReplaceThoseOfTheFile) {
     expectNear(scene.meshes.at(0).positions.at(1), {1, 0, 1});
 }
 
+// Colours of three and of four components; what leaves [0, 1] is cut.
+TEST(GltfMorph, ColoursAreMovedAndClamped) {
+    for (const bool hasAlpha : {false, true}) {
+        GltfBuilder builder;
+        const int positions = builder.addVec3({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+        const int colors = builder.addVec3(std::vector<glm::vec3>(3, glm::vec3(0.5f)));
+        const int brighter =
+            hasAlpha ? addFloats<glm::vec4>(builder, std::vector<glm::vec4>(3, {0.5, -2, 0, -1}), "VEC4")
+                     : builder.addVec3(std::vector<glm::vec3>(3, {0.5, -2, 0}));
+        const int mesh = builder.addMesh({{"attributes", {{"POSITION", positions}, {"COLOR_0", colors}}},
+                                          {"targets", {{{"COLOR_0", brighter}}}}});
+        builder.addNode({{"mesh", mesh}, {"weights", {0.5}}});
+        const Scene scene = builder.import();
+        EXPECT_EQ(scene.meshes.at(0).colors.at(2), glm::vec4(0.75f, 0.0f, 0.5f, hasAlpha ? 0.5f : 1.0f));
+    }
+}
+
 TEST(GltfMorph, TargetsOfAnotherSizeOrTypeAreRefused) {
+    GltfBuilder flat;
+    const int corners = flat.addVec3({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+    const int pairs = addFloats<glm::vec2>(flat, std::vector<glm::vec2>(3), "VEC2");
+    flat.addNode({{"mesh", flat.addMesh({{"attributes", {{"POSITION", corners}}},
+                                         {"targets", {{{"POSITION", pairs}}}}})},
+                  {"weights", {1}}});
+    EXPECT_NE(importError(flat).find("is used as POSITION of a morph target and must be a VEC3"),
+              std::string::npos);
     GltfBuilder builder;
     const int positions = builder.addVec3({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
     const int few = builder.addVec3({{0, 0, 0}});
