@@ -80,21 +80,21 @@ std::vector<std::string> whatIsMissing(const vk::PhysicalDeviceLimits& limits,
     std::vector<std::string> missing;
     if (!(subgroup.supportedStages & vk::ShaderStageFlagBits::eCompute))
         missing.emplace_back("no subgroup operations in compute shaders");
-    const auto needed = vk::SubgroupFeatureFlagBits::eBasic | vk::SubgroupFeatureFlagBits::eBallot;
-    if ((subgroup.supportedOperations & needed) != needed)
+    const auto operations = vk::SubgroupFeatureFlagBits::eBasic | vk::SubgroupFeatureFlagBits::eBallot;
+    if ((subgroup.supportedOperations & operations) != operations)
         missing.emplace_back("no subgroup ballot (needed to compact the queues)");
-    if (limits.maxPerStageDescriptorStorageBuffers < kStorageBuffers)
-        missing.push_back(fmt::format("{} storage buffers per stage, {} needed",
-                                      limits.maxPerStageDescriptorStorageBuffers, kStorageBuffers));
-    if (limits.maxPerStageDescriptorSampledImages < kTexelBuffers)
-        missing.push_back(fmt::format("{} texel buffers per stage, {} needed",
-                                      limits.maxPerStageDescriptorSampledImages, kTexelBuffers));
-    if (limits.maxComputeWorkGroupInvocations < kWorkgroupSize)
-        missing.push_back(fmt::format("workgroups of {} invocations at most, {} needed",
-                                      limits.maxComputeWorkGroupInvocations, kWorkgroupSize));
-    if (limits.maxTexelBufferElements < kMinTexelElements)
-        missing.push_back(fmt::format("texel buffers of {} elements at most, {} needed",
-                                      limits.maxTexelBufferElements, kMinTexelElements));
+    const auto require = [&](const char* words, uint64_t there, uint64_t needed) {
+        if (there < needed)
+            missing.push_back(fmt::format(fmt::runtime(words), there, needed));
+    };
+    require("{} storage buffers per stage, {} needed", limits.maxPerStageDescriptorStorageBuffers,
+            kStorageBuffers);
+    require("{} texel buffers per stage, {} needed", limits.maxPerStageDescriptorSampledImages,
+            kTexelBuffers);
+    require("workgroups of {} invocations at most, {} needed", limits.maxComputeWorkGroupInvocations,
+            kWorkgroupSize);
+    require("texel buffers of {} elements at most, {} needed", limits.maxTexelBufferElements,
+            kMinTexelElements);
     return missing;
 }
 

@@ -39,7 +39,7 @@ class LiveRender {
     // From then on the newest request counts.
     void show(const LiveRequest& request);
     // A path of a pixel of the window; the answer comes as news, once there is an image. Only the newest
-    // counts of those that wait: each takes as long as its kernel's compilation.
+    // counts of those that wait: the first one after a change takes as long as its kernel's compilation.
     void inspect(const glm::uvec2& pixel, uint32_t sample);
     // Writes the image as it is, or as soon as it has a sample; empty names are left out.
     void save(const std::string& exr, const std::string& png);

@@ -1,4 +1,4 @@
-// Tests of asking for memory before it is taken.
+// Tests of asking for memory before it is taken, and of giving it back.
 #include "base/memory.h"
 
 #include <cstdlib>
