@@ -9,11 +9,12 @@ namespace {
 
 void drawCameras(ViewState& view) {
     if (ImGui::BeginCombo("camera", view.rig.camera().name.c_str())) {
-        for (const Camera& camera : view.scene->cameras)
-            if (ImGui::Selectable(camera.name.c_str(), camera.name == view.home.name)) {
-                view.home = camera;
-                view.homeOptions.clear();
-                view.rig = CameraRig(camera, view.scene->bounds);
+        const std::vector<Camera>& cameras = view.scene->cameras;
+        for (size_t i = 0; i < cameras.size(); ++i)
+            if (offer(i, cameras[i].name, cameras[i].name == view.home.name)) {
+                view.home = cameras[i];
+                view.homeOptions = i == 0 ? OptionPairs() : OptionPairs{{"camera", std::to_string(i)}};
+                view.rig = CameraRig(cameras[i], view.scene->bounds);
             }
         ImGui::EndCombo();
     }
@@ -60,15 +61,14 @@ bool drawVariants(ViewState& view) {
     bool isChanged = false;
     const char* none = "as the file has it";
     if (ImGui::BeginCombo("variant", view.import.variant.empty() ? none : view.import.variant.c_str())) {
-        const auto offer = [&](const char* label, const std::string& variant) {
-            if (ImGui::Selectable(label, variant == view.import.variant)) {
-                isChanged |= variant != view.import.variant;
-                view.import.variant = variant;
-            }
-        };
-        offer(none, "");
-        for (const std::string& variant : view.scene->variants)
-            offer(variant.c_str(), variant);
+        const std::string before = view.import.variant;
+        if (offer(0, none, before.empty()))
+            view.import.variant.clear();
+        const std::vector<std::string>& variants = view.scene->variants;
+        for (size_t i = 0; i < variants.size(); ++i)
+            if (offer(i + 1, variants[i], variants[i] == before))
+                view.import.variant = variants[i];
+        isChanged = view.import.variant != before;
         ImGui::EndCombo();
     }
     explain("Sets of materials that the file offers");

@@ -20,6 +20,15 @@ inline void explain(const char* text) {
     ImGui::EndTooltip();
 }
 
+// An entry of a list, by a name that a file gives: it may be empty, come twice, or hold ImGui's marks.
+// Whether it was chosen.
+inline bool offer(size_t index, const std::string& name, bool isChosen) {
+    const bool isPicked = ImGui::Selectable(("##" + std::to_string(index)).c_str(), isChosen);
+    ImGui::SameLine(0.0f, 0.0f);
+    ImGui::TextUnformatted(name.empty() ? "(no name)" : name.c_str());
+    return isPicked;
+}
+
 // A setting by its names on the command line. Whether it was changed.
 template <typename Value>
 bool choose(const char* label, Value& value, const char* meaning) {

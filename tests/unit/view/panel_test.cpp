@@ -146,11 +146,30 @@ class ScenePanelTest : public PanelTest {
 
 TEST_F(ScenePanelTest, CameraIsChosenAndHomeIsThere) {
     view_.homeOptions = {{"camera-position", "1,2,3"}};
-    choose("camera", "above");
+    choose("camera", "##1");
     EXPECT_EQ(view_.home.name, "above");
-    EXPECT_TRUE(view_.homeOptions.empty());
+    EXPECT_EQ(view_.homeOptions, (OptionPairs{{"camera", "1"}}));
     EXPECT_EQ(view_.rig.camera().position, view_.scene->cameras.back().position);
     EXPECT_FALSE(wantsScene_);
+    choose("camera", "##0");
+    EXPECT_TRUE(view_.homeOptions.empty()) << "the first needs no option";
+}
+
+// glTF leaves the naming of cameras open, and ImGui ends the program over an item without a name.
+TEST_F(ScenePanelTest, CamerasAndVariantsNeedNoNamesOfTheirOwn) {
+    Scene scene = *view_.scene;
+    scene.cameras.push_back(scene.cameras.back());
+    scene.cameras.front().name = "";
+    scene.cameras[1].name = scene.cameras[2].name = "two##of them";
+    scene.cameras[2].position.y += 1.0f;
+    scene.variants = {"", "beach", "beach"};
+    view_ = viewOf(std::make_shared<const Scene>(std::move(scene)));
+    click("Lavalight", "camera");
+    EXPECT_NE(text().find("(no name)"), std::string::npos);
+    click("##Combo_00", "##2");
+    EXPECT_EQ(view_.rig.camera().position, view_.scene->cameras.back().position);
+    choose("variant", "##3");
+    EXPECT_EQ(view_.import.variant, "beach");
 }
 
 TEST_F(ScenePanelTest, LensIsOpenedAndFocused) {
@@ -174,13 +193,13 @@ TEST_F(ScenePanelTest, EnvironmentIsTurnedAndDimmedWithoutReadingTheScene) {
 }
 
 TEST_F(ScenePanelTest, VariantAndMomentAskForTheScene) {
-    choose("variant", "street");
+    choose("variant", "##2");
     EXPECT_EQ(view_.import.variant, "street");
     EXPECT_TRUE(wantsScene_);
     wantsScene_ = false;
-    choose("variant", "street");
+    choose("variant", "##2");
     EXPECT_FALSE(wantsScene_) << "it is there already";
-    choose("variant", "as the file has it");
+    choose("variant", "##0");
     EXPECT_EQ(view_.import.variant, "");
     EXPECT_TRUE(wantsScene_);
     wantsScene_ = false;
