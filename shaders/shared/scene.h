@@ -156,7 +156,8 @@ SHARED_CONST uint kFeatureOrthographic = 0x1000000u;
 SHARED_CONST uint kFeatureLights = 0x2000000u;            // there are any
 SHARED_CONST uint kFeatureEnvironmentLight = 0x4000000u;  // the environment is among them
 SHARED_CONST uint kFeatureSolids = 0x8000000u; // two solids that may overlap
-SHARED_CONST uint kAllFeatures = 0xfffffffu;
+SHARED_CONST uint kFeatureManyTriangles = 0x10000000u; // so that it pays to trace alike rays together
+SHARED_CONST uint kAllFeatures = 0x1fffffffu;
 
 // Directional albedos of the GGX lobe and of sheen, tabulated over angle and roughness (lib/albedo_grid.glsl), row by row;
 // then the cosine-weighted averages of the GGX lobe's, kAveragesPerRow to the distance of two rows.

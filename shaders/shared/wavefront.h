@@ -59,9 +59,22 @@ struct ShadowRay {
 struct Lane {
     Ray ray;
     uint slot;
-    uint bounce; // 0: the path of the slot is yet to start
-    uint wave;   // in which that was so
-    uint unused;
+    uint bounce;  // 0: no path is under way
+    uint wave;    // in which that was so
+    uint started; // slots of which the camera ray was traced
+    uint waiting; // paths that were put by after their first vertex
+    uint resumed; // of which so many have been taken up again
+    uint unused0;
+    uint unused1;
+};
+
+// A path put by; the rest of it is with its slot.
+struct WaitingPath {
+    Ray ray; // that it goes on with
+    uint slot;
+    uint unused0;
+    uint unused1;
+    uint unused2;
 };
 
 // Vertices that an invocation of the fused kernel goes on for in one dispatch. Mesa 22.3's lavapipe ends all loops of an
@@ -99,7 +112,7 @@ struct WaveRange {
     uint sampleCount;
     uint bandFirstPixel; // the film at hand starts with this pixel
     uint bounce;
-    uint slotsPerLane; // fused kernel: consecutive slots that an invocation takes, one after another
+    uint slotsPerLane; // fused kernel: how many an invocation takes, one after another
     uint wave;         // fused kernel: lanes of another wave start anew
     uint groupStride;  // fused kernel: workgroup i takes the lanes of group i * groupStride, modulo their number
 };

@@ -15,9 +15,10 @@ uint32_t slotsPerLane(uint32_t slots) {
     return std::clamp(slots / kFewestLanes, 1u, kMostSlotsPerLane);
 }
 
-// Of a wave of any size up to `slots`.
+// Of a wave of any size up to `slots`, in whole workgroups.
 uint32_t mostLanes(uint32_t slots) {
-    return std::max(std::min(slots, 2 * kFewestLanes), slots / kMostSlotsPerLane + 1);
+    const uint32_t lanes = std::max(std::min(slots, 2 * kFewestLanes), slots / kMostSlotsPerLane + 1);
+    return groupsFor(lanes) * kWorkgroupSize;
 }
 
 // A number without a divisor in common with `groups`, near their golden section: multiples of it, modulo
@@ -34,12 +35,14 @@ uint32_t strideThrough(uint32_t groups) {
 FusedPaths::State::State(gpu::Device& device, uint32_t slots)
     : paths(device, "paths", slots * sizeof(Path), gpu::BufferUse::storage),
       lanes(device, "lanes", mostLanes(slots) * sizeof(Lane), gpu::BufferUse::storage),
+      waiting(device, "waiting paths", slots * sizeof(WaitingPath), gpu::BufferUse::storage),
       counters(device, "lane counters", sizeof(LaneCounters), gpu::BufferUse::readback) {}
 
 gpu::ResourceTable FusedPaths::State::table() const {
     gpu::ResourceTable resources;
     resources.set("Paths", paths);
     resources.set("Lanes", lanes);
+    resources.set("WaitingPaths", waiting);
     resources.set("LaneCounts", counters);
     return resources;
 }

@@ -18,7 +18,7 @@ class FusedPaths : public WaveRenderer {
     struct State {
         State(gpu::Device& device, uint32_t slots);
         [[nodiscard]] gpu::ResourceTable table() const;
-        gpu::Buffer paths, lanes, counters;
+        gpu::Buffer paths, lanes, waiting, counters;
     };
     // The kernels bound to one band of the film.
     struct Band {

@@ -10,6 +10,9 @@
 namespace lavalight {
 namespace {
 
+// From where rays cost so much that the fused kernel gains by putting paths by (docs/performance.md).
+constexpr uint64_t kManyTriangles = 10000;
+
 bool has(const Material& material, TextureSlot slot) {
     return material.texture(slot).has_value();
 }
@@ -118,6 +121,7 @@ uint32_t sceneFeatures(const Scene& scene, const Lights& lights) {
     const std::vector<bool> transparent = transparentMeshes(scene);
     features |=
         std::find(transparent.begin(), transparent.end(), true) != transparent.end() ? kFeatureAlpha : 0u;
+    features |= scene.triangleCount() >= kManyTriangles ? kFeatureManyTriangles : 0u;
     features |= solidsMayOverlap(scene) ? kFeatureSolids : 0u;
     features |= lights.emitters.list.empty() ? 0u : kFeatureTriangleLights;
     features |= lights.punctuals.empty() ? 0u : kFeaturePunctualLights;

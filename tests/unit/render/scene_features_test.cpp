@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "render/scene_features.h"
+#include "scene/builtin.h"
 #include "shared/scene.h"
 
 namespace lavalight::test {
@@ -93,6 +94,11 @@ TEST(SceneFeatures, ColoursAndAlphaOfMeshesAreNamed) {
     EXPECT_EQ(featuresOf(scene), kFeatureVertexColors);
     scene.materials.front().alphaMode = AlphaMode::blend;
     EXPECT_EQ(featuresOf(scene), kFeatureVertexColors | kFeatureAlpha);
+}
+
+TEST(SceneFeatures, ManyTrianglesAreNamed) {
+    EXPECT_EQ(featuresOf(loadScene("dense-9000")) & kFeatureManyTriangles, 0u);
+    EXPECT_EQ(featuresOf(loadScene("dense-11000")) & kFeatureManyTriangles, kFeatureManyTriangles);
 }
 
 TEST(SceneFeatures, LobesOfExtensionsAreNamed) {
