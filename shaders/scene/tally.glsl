@@ -12,9 +12,9 @@ void addTally(uint which, uint amount) {
         atomicAdd(tallies[2u * which + 1u], 1u);
 }
 
-// The mean of a path's throughput in units of 2^-16, at most 2^28: a lane's sum over the vertices of a dispatch fits a word.
+// The mean of a path's throughput in units of 2^-16, below 2^28: a lane's sum over the 16 vertices of a dispatch fits a word.
 uint fixedThroughput(vec3 throughput) {
-    return uint(min(dot(throughput, vec3(1.0 / 3.0)), 4096.0) * 65536.0 + 0.5);
+    return uint(min(dot(throughput, vec3(1.0 / 3.0)), 4095.9) * 65536.0 + 0.5);
 }
 
 // Paths that were within two solids at once, and the greatest pair of these: an example, the same in every run.

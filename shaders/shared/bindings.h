@@ -22,8 +22,8 @@
 #define BINDING_COUNTERS 14
 #define BINDING_DISPATCH_SIZES 15
 #define BINDING_LANES 19
-#define BINDING_WAITING_PATHS 30
 #define BINDING_LANE_COUNTERS 20
+#define BINDING_WAITING_PATHS 30
 
 // Film of one band and what happened to it.
 #define BINDING_FILM 16

@@ -59,8 +59,8 @@ struct ShadowRay {
 struct Lane {
     Ray ray;
     uint slot;
+    uint wave;    // of which the rest tells
     uint bounce;  // 0: no path is under way
-    uint wave;    // in which that was so
     uint started; // slots of which the camera ray was traced
     uint waiting; // paths that were put by after their first vertex
     uint resumed; // of which so many have been taken up again

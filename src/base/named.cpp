@@ -26,4 +26,10 @@ size_t findNamed(const std::vector<std::string>& names, const Wanted& wanted) {
                                  wanted.kind, wanted.text, known));
 }
 
+std::string textFor(const std::vector<std::string>& names, size_t index) {
+    const auto here = names.begin() + static_cast<std::ptrdiff_t>(index);
+    const bool isFound = !here->empty() && std::find(names.begin(), here, *here) == here;
+    return isFound ? *here : std::to_string(index);
+}
+
 } // namespace lavalight

@@ -19,4 +19,8 @@ struct Wanted {
 // there are.
 [[nodiscard]] size_t findNamed(const std::vector<std::string>& names, const Wanted& wanted);
 
+// The text by which findNamed() finds names[index]: its name, or its number where it has none or another one
+// of that name comes first. Where a number is also a name of another, nothing finds it.
+[[nodiscard]] std::string textFor(const std::vector<std::string>& names, size_t index);
+
 } // namespace lavalight

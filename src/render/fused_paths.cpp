@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "shared/scene.h"
+
 namespace lavalight {
 namespace {
 
@@ -32,10 +34,11 @@ uint32_t strideThrough(uint32_t groups) {
 
 } // namespace
 
-FusedPaths::State::State(gpu::Device& device, uint32_t slots)
+FusedPaths::State::State(gpu::Device& device, uint32_t slots, bool putsPathsBy)
     : paths(device, "paths", slots * sizeof(Path), gpu::BufferUse::storage),
       lanes(device, "lanes", mostLanes(slots) * sizeof(Lane), gpu::BufferUse::storage),
-      waiting(device, "waiting paths", slots * sizeof(WaitingPath), gpu::BufferUse::storage),
+      waiting(device, "waiting paths", (putsPathsBy ? slots : 1) * sizeof(WaitingPath),
+              gpu::BufferUse::storage),
       counters(device, "lane counters", sizeof(LaneCounters), gpu::BufferUse::readback) {}
 
 gpu::ResourceTable FusedPaths::State::table() const {
@@ -53,7 +56,8 @@ FusedPaths::Band::Band(gpu::Device& device, const State& state, const WaveInputs
       accumulate(device, inputs.kernels["accumulate"], resources.table) {}
 
 FusedPaths::FusedPaths(gpu::Device& device, const WaveInputs& inputs)
-    : WaveRenderer(device), state_(device, inputs.frame.waveSize) {
+    : WaveRenderer(device),
+      state_(device, inputs.frame.waveSize, (inputs.scene.features() & kFeatureManyTriangles) != 0) {
     bands_.reserve(inputs.film.bands().size());
     for (const FilmBand& band : inputs.film.bands())
         bands_.emplace_back(device, state_, inputs, band);

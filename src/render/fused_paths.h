@@ -16,7 +16,7 @@ class FusedPaths : public WaveRenderer {
 
   private:
     struct State {
-        State(gpu::Device& device, uint32_t slots);
+        State(gpu::Device& device, uint32_t slots, bool putsPathsBy);
         [[nodiscard]] gpu::ResourceTable table() const;
         gpu::Buffer paths, lanes, waiting, counters;
     };

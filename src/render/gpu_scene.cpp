@@ -25,7 +25,7 @@ gpu::Buffer uploadTexels(gpu::Device& device, const char* name, const std::vecto
 } // namespace
 
 GpuScene::GpuScene(gpu::Device& device, const SceneData& data, const KernelSource& source)
-    : fingerprints_(fingerprintsOf(data)), bvhSeconds_(data.bvh.buildSeconds),
+    : features_(data.features), fingerprints_(fingerprintsOf(data)), bvhSeconds_(data.bvh.buildSeconds),
       nodes_(uploadTexels(device, "BVH nodes", data.bvh.nodes)),
       leafTriangles_(uploadTexels(device, "leaf triangles", data.leafTriangles)),
       normals_(uploadTexels(device, "triangle normals", data.normals)),

@@ -26,12 +26,15 @@ class GpuScene {
     // Kernels that were bound to the old one must be bound anew.
     void setAlbedoTable(AlbedoTable table) { albedoTable_ = std::move(table); }
 
+    // What it has: kFeature...
+    [[nodiscard]] uint32_t features() const { return features_; }
     // Of what was uploaded.
     [[nodiscard]] const Fingerprints& fingerprints() const { return fingerprints_; }
     [[nodiscard]] double bvhSeconds() const { return bvhSeconds_; }
     [[nodiscard]] uint64_t bytes() const;
 
   private:
+    uint32_t features_;
     Fingerprints fingerprints_;
     double bvhSeconds_;
     gpu::Buffer nodes_;

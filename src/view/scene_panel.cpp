@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/named.h"
 #include "view/widgets.h"
 
 namespace lavalight {
@@ -10,10 +11,13 @@ namespace {
 void drawCameras(ViewState& view) {
     if (ImGui::BeginCombo("camera", view.rig.camera().name.c_str())) {
         const std::vector<Camera>& cameras = view.scene->cameras;
+        std::vector<std::string> names;
+        for (const Camera& camera : cameras)
+            names.push_back(camera.name);
         for (size_t i = 0; i < cameras.size(); ++i)
-            if (offer(i, cameras[i].name, cameras[i].name == view.home.name)) {
+            if (offer(i, names[i], cameras[i] == view.home)) {
                 view.home = cameras[i];
-                view.homeOptions = i == 0 ? OptionPairs() : OptionPairs{{"camera", std::to_string(i)}};
+                view.homeOptions = i == 0 ? OptionPairs() : OptionPairs{{"camera", textFor(names, i)}};
                 view.rig = CameraRig(cameras[i], view.scene->bounds);
             }
         ImGui::EndCombo();
@@ -66,8 +70,8 @@ bool drawVariants(ViewState& view) {
             view.import.variant.clear();
         const std::vector<std::string>& variants = view.scene->variants;
         for (size_t i = 0; i < variants.size(); ++i)
-            if (offer(i + 1, variants[i], variants[i] == before))
-                view.import.variant = variants[i];
+            if (offer(i + 1, variants[i], textFor(variants, i) == before))
+                view.import.variant = textFor(variants, i);
         isChanged = view.import.variant != before;
         ImGui::EndCombo();
     }

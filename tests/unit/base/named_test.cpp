@@ -32,5 +32,13 @@ TEST(FindNamed, UnknownOnesAreRefusedWithWhatThereIs) {
                                      "\"; it has 0 \"front\", 1 \"2\", 2 \"top\"");
 }
 
+TEST(TextFor, FindsEachOfNamesThatAreEmptyOrComeTwice) {
+    const std::vector<std::string> names{"", "beach", "street", "beach"};
+    EXPECT_EQ(textFor(names, 0), "0") << "no text is for no choice";
+    EXPECT_EQ(textFor(names, 2), "street");
+    for (size_t i = 0; i < names.size(); ++i)
+        EXPECT_EQ(findNamed(names, {textFor(names, i), "--variant", "variant", "a.glb"}), i);
+}
+
 } // namespace
 } // namespace lavalight::test

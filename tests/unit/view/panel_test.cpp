@@ -148,7 +148,7 @@ TEST_F(ScenePanelTest, CameraIsChosenAndHomeIsThere) {
     view_.homeOptions = {{"camera-position", "1,2,3"}};
     choose("camera", "##1");
     EXPECT_EQ(view_.home.name, "above");
-    EXPECT_EQ(view_.homeOptions, (OptionPairs{{"camera", "1"}}));
+    EXPECT_EQ(view_.homeOptions, (OptionPairs{{"camera", "above"}}));
     EXPECT_EQ(view_.rig.camera().position, view_.scene->cameras.back().position);
     EXPECT_FALSE(wantsScene_);
     choose("camera", "##0");
@@ -168,8 +168,11 @@ TEST_F(ScenePanelTest, CamerasAndVariantsNeedNoNamesOfTheirOwn) {
     EXPECT_NE(text().find("(no name)"), std::string::npos);
     click("##Combo_00", "##2");
     EXPECT_EQ(view_.rig.camera().position, view_.scene->cameras.back().position);
+    EXPECT_EQ(view_.homeOptions, (OptionPairs{{"camera", "2"}})) << "a name finds the first of them";
     choose("variant", "##3");
-    EXPECT_EQ(view_.import.variant, "beach");
+    EXPECT_EQ(view_.import.variant, "2");
+    choose("variant", "##1");
+    EXPECT_EQ(view_.import.variant, "0") << "no text would be no variant";
 }
 
 TEST_F(ScenePanelTest, LensIsOpenedAndFocused) {
