@@ -9,13 +9,17 @@ namespace lavalight {
 namespace {
 
 void drawCameras(ViewState& view) {
-    if (ImGui::BeginCombo("camera", view.rig.camera().name.c_str())) {
-        const std::vector<Camera>& cameras = view.scene->cameras;
-        std::vector<std::string> names;
-        for (const Camera& camera : cameras)
-            names.push_back(camera.name);
+    const std::vector<Camera>& cameras = view.scene->cameras;
+    std::vector<std::string> names;
+    for (const Camera& camera : cameras)
+        names.push_back(camera.name);
+    const auto home = std::find(cameras.begin(), cameras.end(), view.home);
+    const std::string shown = home == cameras.end()
+                                  ? view.home.name
+                                  : nameOrNumber(names, static_cast<size_t>(home - cameras.begin()));
+    if (ImGui::BeginCombo("camera", shown.c_str())) {
         for (size_t i = 0; i < cameras.size(); ++i)
-            if (offer(i, names[i], cameras[i] == view.home)) {
+            if (offer(i, nameOrNumber(names, i), cameras[i] == view.home)) {
                 view.home = cameras[i];
                 view.homeOptions = i == 0 ? OptionPairs() : OptionPairs{{"camera", textFor(names, i)}};
                 view.rig = CameraRig(cameras[i], view.scene->bounds);
@@ -70,7 +74,7 @@ bool drawVariants(ViewState& view) {
             view.import.variant.clear();
         const std::vector<std::string>& variants = view.scene->variants;
         for (size_t i = 0; i < variants.size(); ++i)
-            if (offer(i + 1, variants[i], textFor(variants, i) == before))
+            if (offer(i + 1, nameOrNumber(variants, i), textFor(variants, i) == before))
                 view.import.variant = textFor(variants, i);
         isChanged = view.import.variant != before;
         ImGui::EndCombo();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <imgui.h>
 
@@ -20,12 +21,16 @@ inline void explain(const char* text) {
     ImGui::EndTooltip();
 }
 
-// An entry of a list, by a name that a file gives: it may be empty, come twice, or hold ImGui's marks.
-// Whether it was chosen.
-inline bool offer(size_t index, const std::string& name, bool isChosen) {
+// What a list shows of a file's names, which may be empty.
+inline std::string nameOrNumber(const std::vector<std::string>& names, size_t index) {
+    return names[index].empty() ? "number " + std::to_string(index) : names[index];
+}
+
+// An entry of a list; `text` may come twice, or hold ImGui's marks. Whether it was chosen.
+inline bool offer(size_t index, const std::string& text, bool isChosen) {
     const bool isPicked = ImGui::Selectable(("##" + std::to_string(index)).c_str(), isChosen);
     ImGui::SameLine(0.0f, 0.0f);
-    ImGui::TextUnformatted(name.empty() ? "(no name)" : name.c_str());
+    ImGui::TextUnformatted(text.c_str());
     return isPicked;
 }
 
