@@ -35,13 +35,14 @@ pid_t startSilently(const std::vector<std::string>& words, int passed = -1) {
     return spawn.start(words);
 }
 
-// The server takes a free number and tells it.
+// The server takes a free number and tells it. It must outlive its clients (-noreset): it starts again when
+// its last one leaves, and isManaged(), coming and going, would take the window manager with it.
 pid_t startServer(std::string& display) {
     std::array<int, 2> ends{};
     if (::pipe2(ends.data(), O_CLOEXEC) != 0)
         throw std::runtime_error("no pipe for Xvfb");
     const pid_t server = startSilently(
-        {"Xvfb", "-displayfd", "3", "-screen", "0", "1280x800x24", "-nolisten", "tcp"}, ends[1]);
+        {"Xvfb", "-displayfd", "3", "-screen", "0", "1280x800x24", "-nolisten", "tcp", "-noreset"}, ends[1]);
     ::close(ends[1]);
     std::string number;
     char digit = 0;
@@ -99,8 +100,14 @@ Desktop::Desktop() {
     display_ = std::make_unique<EnvironmentVariable>("DISPLAY", display);
     manager_ = startSilently({"openbox", "--sm-disable"});
     const auto deadline = std::chrono::steady_clock::now() + kPatience;
-    while (!isManaged() && std::chrono::steady_clock::now() < deadline)
+    while (!isManaged()) {
+        if (std::chrono::steady_clock::now() > deadline) {
+            stop(manager_);
+            stop(server_);
+            throw std::runtime_error("openbox did not start");
+        }
         std::this_thread::sleep_for(kTurn);
+    }
 }
 
 Desktop::~Desktop() {
