@@ -1,4 +1,4 @@
-// Build step: compiles kernels and writes them as C++ arrays, found by name through NAMESPACE::find.
+// Build step: compiles and inlines kernels and writes them as C++ arrays, found by name through NAMESPACE::find.
 #include <cstdio>
 #include <filesystem>
 #include <string>
@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "gpu/shader_build.h"
+#include "gpu/spirv_passes.h"
 
 namespace {
 
@@ -83,7 +84,8 @@ void writeSource(const Arguments& arguments) {
     std::string arrays;
     std::string branches;
     for (const std::filesystem::path& file : arguments.files) {
-        const gpu::KernelCode code = gpu::compileKernel(file, arguments.includeRoot);
+        gpu::KernelCode code = gpu::compileKernel(file, arguments.includeRoot);
+        code.spirv = gpu::inlined(code.spirv);
         arrays += arrayOf(code);
         branches += branchOf(code);
     }

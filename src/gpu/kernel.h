@@ -13,7 +13,7 @@
 #include "gpu/buffer.h"
 #include "gpu/device.h"
 #include "gpu/shader_build.h"
-#include "gpu/specialisation.h"
+#include "gpu/spirv_passes.h"
 
 namespace lavalight::gpu {
 

@@ -1,4 +1,4 @@
-#include "gpu/specialisation.h"
+#include "gpu/spirv_passes.h"
 
 #include <string>
 #include <unordered_map>
@@ -22,11 +22,28 @@ std::vector<uint32_t> run(const std::vector<uint32_t>& spirv, const RegisterPass
     options.set_run_validator(false); // the validation layer checks every module in the device tests
     std::vector<uint32_t> result;
     if (!optimizer.Run(spirv.data(), spirv.size(), &result, options))
-        throw Error(fmt::format("cannot specialise a kernel:{}", messages));
+        throw Error(fmt::format("SPIRV-Tools cannot change a kernel:{}", messages));
     return result;
 }
 
 } // namespace
+
+std::vector<uint32_t> inlined(const std::vector<uint32_t>& spirv) {
+    return run(spirv, [](spvtools::Optimizer& optimizer) {
+        const auto registerMemoryPasses = [&] {
+            optimizer.RegisterPass(spvtools::CreateLocalSingleBlockLoadStoreElimPass());
+            optimizer.RegisterPass(spvtools::CreateLocalSingleStoreElimPass());
+            optimizer.RegisterPass(spvtools::CreateAggressiveDCEPass());
+        };
+        optimizer.RegisterPass(spvtools::CreateInlineExhaustivePass());
+        optimizer.RegisterPass(spvtools::CreateEliminateDeadFunctionsPass());
+        registerMemoryPasses();
+        optimizer.RegisterPass(spvtools::CreateScalarReplacementPass());
+        optimizer.RegisterPass(spvtools::CreateLocalAccessChainConvertPass());
+        registerMemoryPasses();
+        optimizer.RegisterPass(spvtools::CreateBlockMergePass());
+    });
+}
 
 std::vector<uint32_t> specialised(const std::vector<uint32_t>& spirv,
                                   std::span<const SpecialisationConstant> constants) {

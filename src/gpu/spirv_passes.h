@@ -1,4 +1,4 @@
-// Constants of kernels, settled by SPIRV-Tools before a driver sees them: drivers are slower at it.
+// What SPIRV-Tools does to kernels before a driver sees them: drivers are slower at it.
 #pragma once
 
 #include <cstdint>
@@ -13,6 +13,12 @@ struct SpecialisationConstant {
     uint32_t value = 0;
     bool operator==(const SpecialisationConstant&) const = default;
 };
+
+// The same kernel in one function, without the loads and stores that this makes needless. Takes half a second for
+// the largest kernel, so it is for the build; lavapipe then goes through the code in two thirds to two fifths of the time, and what it
+// makes of it renders as fast. More passes would not be free: functions brought to a single return, or values
+// in SSA form, are slower to render by a tenth (docs/performance.md). Throws Error.
+[[nodiscard]] std::vector<uint32_t> inlined(const std::vector<uint32_t>& spirv);
 
 // SPIR-V whose specialisation constants have those values, without the code that they switch off. Takes 0.1 s
 // for the largest kernel, and lavapipe then makes its pipeline in a third of the time. Throws Error.
