@@ -66,8 +66,8 @@ std::string branchOf(const gpu::KernelCode& code) {
         bindings += fmt::format("{{\"{}\", {}, gpu::BindingKind::{}}}, ", binding.name, binding.binding,
                                 nameOf(binding.kind));
     return fmt::format("    if (name == \"{0}\")\n"
-                       "        return {{\"{0}\", {{std::begin({0}), std::end({0})}}, {{{1}}}, {2}}};\n",
-                       code.name, bindings, code.pushConstantBytes);
+                       "        return {{\"{0}\", \"{3}\", {{std::begin({0}), std::end({0})}}, {{{1}}}, {2}}};\n",
+                       code.name, bindings, code.pushConstantBytes, code.content);
 }
 
 void writeHeader(const Arguments& arguments) {

@@ -10,6 +10,7 @@
 #include <glslang/Public/ShaderLang.h>
 #include <glslang/SPIRV/GlslangToSpv.h>
 
+#include "base/content_hash.h"
 #include "base/error.h"
 #include "base/file.h"
 
@@ -122,6 +123,9 @@ KernelCode compileKernel(const ShaderText& source, const ShaderFiles& includes) 
     glslang::SpvOptions options;
     options.validate = false; // the validation layer checks every module in the device tests
     glslang::GlslangToSpv(*program.getIntermediate(EShLangCompute), code.spirv, &options);
+    ContentHash hash;
+    hash.add(code.spirv);
+    code.content = hash.text();
     return code;
 }
 

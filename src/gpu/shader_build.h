@@ -24,7 +24,8 @@ struct KernelBinding {
 // A compiled kernel with what is needed to build its pipeline layout.
 struct KernelCode {
     std::string name; // file name without folder and extension
-    std::vector<uint32_t> spirv;
+    std::string content; // ContentHash of the SPIR-V as compiled: equal where the kernel is
+    std::vector<uint32_t> spirv; // as compiled, or inlined() since
     std::vector<KernelBinding> bindings; // ascending binding numbers
     uint32_t pushConstantBytes = 0;
 };

@@ -24,7 +24,7 @@ AlbedoTable makeAlbedoTable(gpu::Device& device, gpu::KernelCode code) {
         commands.dispatch(albedo, kAlbedoRoughnesses, std::as_bytes(std::span(&stage, 1)));
     commands.copy(computed, table, bytes);
     commands.submitAndWait();
-    return {std::move(table), kernel.code().spirv};
+    return {std::move(table), kernel.code().content};
 }
 
 } // namespace lavalight

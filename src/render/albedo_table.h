@@ -2,7 +2,7 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
+#include <string>
 
 #include "gpu/buffer.h"
 #include "gpu/device.h"
@@ -13,8 +13,7 @@ namespace lavalight {
 // Layout: shaders/shared/scene.h; what an entry holds: shaders/scene/albedo_table.glsl.
 struct AlbedoTable {
     gpu::Buffer buffer;
-    std::vector<uint32_t>
-        spirv; // of the kernel that computed it; empty: no texels, for scenes that ask for none
+    std::string kernelContent; // of the one that computed it; empty: no texels, for scenes that ask for none
 };
 
 // Computed on the device by the code of shaders/kernels/albedo.comp, so that it rests on the functions that

@@ -48,7 +48,7 @@ EstimatorKernels::EstimatorKernels(gpu::Device& device, Kernels kernels, const E
 std::vector<std::string> EstimatorKernels::changed(const KernelSource& source) const {
     std::vector<std::string> names;
     for (const auto& [name, kernel] : kernels_)
-        if (source(name).spirv != kernel.code().spirv)
+        if (source(name).content != kernel.code().content)
             names.push_back(name);
     return names;
 }

@@ -26,9 +26,9 @@ std::string shadersOf(const Renderer& renderer) {
     ContentHash hash;
     for (const auto& [name, kernel] : renderer.kernels().all()) {
         hash.add(name);
-        hash.add(kernel.code().spirv);
+        hash.add(kernel.code().content);
     }
-    hash.add(renderer.scene().albedoTable().spirv);
+    hash.add(renderer.scene().albedoTable().kernelContent);
     return hash.text();
 }
 

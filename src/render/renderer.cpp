@@ -185,8 +185,8 @@ Renderer::Renderer(gpu::Device& device, const RenderSettings& settings, Setup se
 
 std::vector<std::string> Renderer::changedKernels(const KernelSource& source) const {
     std::vector<std::string> names = kernels_.changed(source);
-    const std::vector<uint32_t>& albedo = scene_.albedoTable().spirv;
-    if (!albedo.empty() && source("albedo").spirv != albedo)
+    const std::string& albedo = scene_.albedoTable().kernelContent;
+    if (!albedo.empty() && source("albedo").content != albedo)
         names.emplace_back("albedo");
     return names;
 }

@@ -45,7 +45,7 @@ std::vector<uint32_t> ToneMapper::map(const Film& film, const ToneSettings& tone
 }
 
 bool ToneMapper::isChanged(const KernelSource& source) const {
-    return source(kKernelName).spirv != kernels_.begin()->second.code().spirv;
+    return source(kKernelName).content != kernels_.begin()->second.code().content;
 }
 
 void ToneMapper::mapBand(const gpu::Buffer& sums, const gpu::Kernel& kernel, float scale,

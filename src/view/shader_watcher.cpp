@@ -40,9 +40,9 @@ void ShaderWatcher::run() {
 ShaderWatcher::Code ShaderWatcher::compile(ShaderOverlay& overlay) const {
     Code code;
     for (const std::string_view name : estimatorKernelNames(kernels_))
-        code[std::string(name)] = overlay.kernel(name).spirv;
+        code[std::string(name)] = overlay.kernel(name).content;
     for (const char* name : {"albedo", "tonemap"})
-        code[name] = overlay.kernel(name).spirv;
+        code[name] = overlay.kernel(name).content;
     return code;
 }
 

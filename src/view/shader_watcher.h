@@ -39,7 +39,7 @@ class ShaderWatcher {
     [[nodiscard]] std::optional<Change> take();
 
   private:
-    using Code = std::map<std::string, std::vector<uint32_t>>; // SPIR-V by kernel
+    using Code = std::map<std::string, std::string>; // content by kernel
 
     void run();
     void look(const std::vector<std::string>& files);

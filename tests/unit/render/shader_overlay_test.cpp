@@ -24,7 +24,7 @@ class ShaderOverlayTest : public testing::Test {
     }
     [[nodiscard]] ShaderOverlay overlay() const { return ShaderOverlay(folder_.path()); }
     [[nodiscard]] bool changes(const std::string& kernel) const {
-        return overlay().kernel(kernel).spirv != embeddedKernel(kernel).spirv;
+        return overlay().kernel(kernel).content != embeddedKernel(kernel).content;
     }
     [[nodiscard]] std::string failure(const std::string& kernel) const {
         try {

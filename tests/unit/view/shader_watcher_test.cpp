@@ -51,7 +51,7 @@ TEST_F(ShaderWatcherTest, BringsTheKernelsThatASaveChanges) {
     EXPECT_EQ(change.files, std::vector<std::string>{"lib/roulette.glsl"});
     EXPECT_EQ(change.kernels, std::vector<std::string>{"path"});
     ASSERT_NE(change.overlay, nullptr);
-    EXPECT_NE(change.overlay->kernel("path").spirv, ShaderOverlay(folder_ / "lib").kernel("path").spirv);
+    EXPECT_NE(change.overlay->kernel("path").content, ShaderOverlay(folder_ / "lib").kernel("path").content);
     save("// The same code.\n" + capped("0.5"));
     const ShaderWatcher::Change none = next();
     EXPECT_TRUE(none.kernels.empty());
