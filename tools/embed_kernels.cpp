@@ -1,4 +1,5 @@
-// Build step: compiles and inlines kernels and writes them as C++ arrays, found by name through NAMESPACE::find.
+// Build step: compiles and inlines kernels and writes them as C++ arrays, found by name through
+// NAMESPACE::find.
 #include <cstdio>
 #include <filesystem>
 #include <string>
@@ -65,9 +66,10 @@ std::string branchOf(const gpu::KernelCode& code) {
     for (const gpu::KernelBinding& binding : code.bindings)
         bindings += fmt::format("{{\"{}\", {}, gpu::BindingKind::{}}}, ", binding.name, binding.binding,
                                 nameOf(binding.kind));
-    return fmt::format("    if (name == \"{0}\")\n"
-                       "        return {{\"{0}\", \"{3}\", {{std::begin({0}), std::end({0})}}, {{{1}}}, {2}}};\n",
-                       code.name, bindings, code.pushConstantBytes, code.content);
+    return fmt::format(
+        "    if (name == \"{0}\")\n"
+        "        return {{\"{0}\", \"{3}\", {{std::begin({0}), std::end({0})}}, {{{1}}}, {2}}};\n",
+        code.name, bindings, code.pushConstantBytes, code.content);
 }
 
 void writeHeader(const Arguments& arguments) {

@@ -6,6 +6,8 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "gpu/shader_build.h"
+#include "gpu/spirv_passes.h"
+#include "render/kernel_source.h"
 #include "support/temporary_folder.h"
 
 namespace lavalight::test {
@@ -33,6 +35,15 @@ class ShaderBuildTest : public ::testing::Test {
     TemporaryFolder folder_;
 };
 
+// Words of SPIR-V behind its header of five: each instruction's first one has its length and its kind.
+size_t functionsIn(const std::vector<uint32_t>& spirv) {
+    constexpr uint32_t kOpFunction = 54;
+    size_t count = 0;
+    for (size_t at = 5; at < spirv.size(); at += spirv[at] >> 16)
+        count += (spirv[at] & 0xffffu) == kOpFunction;
+    return count;
+}
+
 TEST_F(ShaderBuildTest, AnErrorNamesFileAndLine) {
     write("broken.comp", "#version 460\nlayout(local_size_x = 64) in;\n\nvoid main() { oops; }\n");
     const std::string message = failure("broken.comp");
@@ -58,6 +69,29 @@ TEST_F(ShaderBuildTest, IncludesAreFoundFromTheRootAndOnlyOnce) {
     const gpu::KernelCode code = compile("kernels/sum.comp");
     EXPECT_EQ(code.name, "sum");
     EXPECT_FALSE(code.spirv.empty());
+}
+
+TEST_F(ShaderBuildTest, InliningLeavesOneFunction) {
+    write("kernel.comp", "#version 460\nlayout(local_size_x = 1) in;\n"
+                         "layout(set = 0, binding = 3) buffer Sum { float sum; };\n"
+                         "float twice(float x) { return x + x; }\n"
+                         "float more(float x) { return twice(x) + twice(x + 1.0); }\n"
+                         "void main() { sum = more(sum); }\n");
+    const gpu::KernelCode code = compile("kernel.comp");
+    EXPECT_EQ(functionsIn(code.spirv), 3u);
+    const std::vector<uint32_t> inlined = gpu::inlined(code.spirv);
+    EXPECT_EQ(functionsIn(inlined), 1u);
+    EXPECT_LT(inlined.size(), 2 * code.spirv.size());
+}
+
+// The build inlines what it embeds; what a kernel is known by stays that of its sources.
+TEST_F(ShaderBuildTest, EmbeddedKernelsAreInlinedAndKnownByTheirSources) {
+    const std::filesystem::path shaders = std::filesystem::path(LAVALIGHT_SOURCE_DIR) / "shaders";
+    const gpu::KernelCode compiled = gpu::compileKernel(shaders / "kernels/path.comp", shaders);
+    const gpu::KernelCode embedded = embeddedKernel("path");
+    EXPECT_EQ(embedded.content, compiled.content);
+    EXPECT_GT(functionsIn(compiled.spirv), 50u);
+    EXPECT_LT(functionsIn(embedded.spirv), functionsIn(compiled.spirv) / 5);
 }
 
 TEST_F(ShaderBuildTest, AMissingIncludeIsNamed) {

@@ -14,8 +14,8 @@
 namespace lavalight::test {
 namespace {
 
-// A scene, samples (see expectOneMean), and the share of its tiles that at least must count for each variant, or
-// the test would say nothing.
+// A scene, samples (see expectOneMean), and the share of its tiles that at least must count for each variant,
+// or the test would say nothing.
 struct Subject {
     const char* name;
     uint32_t samples;

@@ -129,8 +129,8 @@ void expectOneMean(gpu::Device& device, const Scene& scene, const std::vector<Va
                    uint32_t samples, double leastShare) {
     const Rendering expected = render(device, scene, defaultVariant().settings, 2 * samples);
     for (const Variant& variant : variants) {
-        const Rendering image =
-            render(device, scene, variant.settings, variant.settings.nextEventEstimation ? samples : 2 * samples);
+        const Rendering image = render(device, scene, variant.settings,
+                                       variant.settings.nextEventEstimation ? samples : 2 * samples);
         const MeanComparison comparison = compareMeans(image, expected);
         std::cout << variant.name << ": " << comparison.text() << std::endl;
         EXPECT_GE(comparison.share, leastShare) << variant.name << ": too noisy to say anything";

@@ -34,8 +34,9 @@ struct Variant {
 [[nodiscard]] std::vector<Variant> answerable(const std::string& scene, std::vector<Variant> variants);
 
 // Renders all variants with so many samples, 32 x 32 pixels, and with twice as many those without next-event
-// estimation, the noisiest by far, and the default, whose noise counts in every comparison. Fails where a variant has another mean, or where fewer than leastShare of the
-// tiles are precise enough to say so. Prints a line for each variant.
+// estimation, the noisiest by far, and the default, whose noise counts in every comparison. Fails where a
+// variant has another mean, or where fewer than leastShare of the tiles are precise enough to say so. Prints
+// a line for each variant.
 void expectOneMean(gpu::Device& device, const Scene& scene, const std::vector<Variant>& variants,
                    uint32_t samples, double leastShare);
 
