@@ -31,7 +31,7 @@ function(lavalight_embed_files lib)
 endfunction()
 
 # lavalight_embed_kernels(TARGET NAMESPACE ns FILES k.comp...): compiles kernels with the program's own compiler,
-# so that a shader error fails the build, and embeds the SPIR-V as `ns::find(name)`.
+# so that a shader error fails the build, inlines them, and embeds the SPIR-V as `ns::find(name)`.
 function(lavalight_embed_kernels target)
     cmake_parse_arguments(ARG "" "NAMESPACE" "FILES" ${ARGN})
     set(dir ${CMAKE_BINARY_DIR}/generated/${target})

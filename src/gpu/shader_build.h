@@ -23,9 +23,9 @@ struct KernelBinding {
 
 // A compiled kernel with what is needed to build its pipeline layout.
 struct KernelCode {
-    std::string name;                    // file name without folder and extension
-    std::string content;                 // ContentHash of the SPIR-V as compiled: equal where the kernel is
-    std::vector<uint32_t> spirv;         // as compiled, or inlined() since
+    std::string name;            // file name without folder and extension
+    std::string content;         // ContentHash of the SPIR-V as compiled, by which kernels are told apart
+    std::vector<uint32_t> spirv; // as compiled, or inlined() since
     std::vector<KernelBinding> bindings; // ascending binding numbers
     uint32_t pushConstantBytes = 0;
 };

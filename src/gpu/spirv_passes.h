@@ -14,7 +14,7 @@ struct SpecialisationConstant {
     bool operator==(const SpecialisationConstant&) const = default;
 };
 
-// The same kernel with its functions inlined, but for those that return out of a loop, and without the loads
+// The same kernel with its functions inlined, but for those that return early, and without the loads
 // and stores that this makes needless. Takes half a second for the largest kernel, so it is for the build;
 // lavapipe then goes through the code in two fifths to two thirds of the time, and what it makes of it
 // renders as fast. More passes would cost: functions brought to a single return, or values in SSA form,

@@ -13,7 +13,7 @@ namespace lavalight {
 // Layout: shaders/shared/scene.h; what an entry holds: shaders/scene/albedo_table.glsl.
 struct AlbedoTable {
     gpu::Buffer buffer;
-    std::string kernelContent; // of the one that computed it; empty: no texels, for scenes that ask for none
+    std::string kernelContent; // of the kernel that computed it; empty: no texels, for scenes that ask for none
 };
 
 // Computed on the device by the code of shaders/kernels/albedo.comp, so that it rests on the functions that

@@ -1,5 +1,6 @@
-// What decides the bits of an image beside its settings, as hashes of what the device is given: two renders
-// are of one scene, one view and the same shaders where these are equal, whatever their files are called.
+// What decides the bits of an image beside its settings, as hashes of what the device is given, and of
+// kernels as they were compiled: two renders are of one scene, one view and the same shaders where these are
+// equal, whatever their files are called.
 #pragma once
 
 #include <string>

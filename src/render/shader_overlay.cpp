@@ -103,7 +103,11 @@ gpu::KernelCode ShaderOverlay::compile(std::string_view name) const {
     const auto source = find(path);
     if (!source)
         throw Error(fmt::format("there is no kernel {}", path));
-    return gpu::compileKernel(*source, [this](const std::string& included) { return find(included); });
+    gpu::KernelCode compiled =
+        gpu::compileKernel(*source, [this](const std::string& included) { return find(included); });
+    gpu::KernelCode embedded = embeddedKernel(name);
+    return compiled.content == embedded.content ? embedded
+                                                : compiled; // only comments differ: the inlined one
 }
 
 const gpu::KernelCode& ShaderOverlay::kernel(std::string_view name) {

@@ -37,22 +37,22 @@ void ShaderWatcher::run() {
     }
 }
 
-ShaderWatcher::Code ShaderWatcher::compile(ShaderOverlay& overlay) const {
-    Code code;
+ShaderWatcher::Contents ShaderWatcher::contentsOf(ShaderOverlay& overlay) const {
+    Contents contents;
     for (const std::string_view name : estimatorKernelNames(kernels_))
-        code[std::string(name)] = overlay.kernel(name).content;
+        contents[std::string(name)] = overlay.kernel(name).content;
     for (const char* name : {"albedo", "tonemap"})
-        code[name] = overlay.kernel(name).content;
-    return code;
+        contents[name] = overlay.kernel(name).content;
+    return contents;
 }
 
 void ShaderWatcher::look(const std::vector<std::string>& files) {
     Change change{files, {}, nullptr, {}};
     try {
         auto now = std::make_shared<ShaderOverlay>(folder_);
-        const Code before = compile(*overlay_);
-        for (auto& [name, code] : compile(*now))
-            if (before.at(name) != code)
+        const Contents before = contentsOf(*overlay_);
+        for (const auto& [name, content] : contentsOf(*now))
+            if (before.at(name) != content)
                 change.kernels.push_back(name);
         if (!change.kernels.empty())
             overlay_ = change.overlay = std::move(now);

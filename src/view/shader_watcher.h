@@ -39,11 +39,11 @@ class ShaderWatcher {
     [[nodiscard]] std::optional<Change> take();
 
   private:
-    using Code = std::map<std::string, std::string>; // content by kernel
+    using Contents = std::map<std::string, std::string>; // by kernel
 
     void run();
     void look(const std::vector<std::string>& files);
-    [[nodiscard]] Code compile(ShaderOverlay& overlay) const;
+    [[nodiscard]] Contents contentsOf(ShaderOverlay& overlay) const;
     void keep(Change change);
 
     std::string folder_;

@@ -15,13 +15,14 @@ namespace lavalight::test {
 struct Variant {
     std::string name;
     EstimatorSettings settings;
+    uint32_t effort = 1; // samples, beside those of other variants
 };
 
 // All have the sampler `independent`, as Z-tests suppose.
 [[nodiscard]] Variant defaultVariant();
 
 // Each setting of the estimator at each value that must not change the mean, one at a time; seed 1, so that
-// images are independent of one at seed 0.
+// images are independent of one at seed 0. Without next-event estimation, the noisiest by far, effort 2.
 [[nodiscard]] std::vector<Variant> singleVariants();
 
 // Hemisphere, NEE, light selection, MIS, roulette, survival in MIS: every combination that checkSettings
@@ -33,10 +34,9 @@ struct Variant {
 // shows it.
 [[nodiscard]] std::vector<Variant> answerable(const std::string& scene, std::vector<Variant> variants);
 
-// Renders all variants with so many samples, 32 x 32 pixels, and with twice as many those without next-event
-// estimation, the noisiest by far, and the default, whose noise counts in every comparison. Fails where a
-// variant has another mean, or where fewer than leastShare of the tiles are precise enough to say so. Prints
-// a line for each variant.
+// Renders each variant with so many samples times its effort, 32 x 32 pixels, and the default with twice as
+// many, whose noise counts in every comparison. Fails where a variant has another mean, or where fewer than
+// leastShare of the tiles are precise enough to say so. Prints a line for each variant.
 void expectOneMean(gpu::Device& device, const Scene& scene, const std::vector<Variant>& variants,
                    uint32_t samples, double leastShare);
 

@@ -35,8 +35,8 @@ pid_t startSilently(const std::vector<std::string>& words, int passed = -1) {
     return spawn.start(words);
 }
 
-// The server takes a free number and tells it. It must outlive its clients (-noreset): it starts again when
-// its last one leaves, and isManaged(), coming and going, would take the window manager with it.
+// The server takes a free number and tells it. Without -noreset it would start again whenever its last client
+// leaves, and isManaged(), coming and going, would end a window manager that is still starting.
 pid_t startServer(std::string& display) {
     std::array<int, 2> ends{};
     if (::pipe2(ends.data(), O_CLOEXEC) != 0)

@@ -61,6 +61,13 @@ TEST_F(ShaderOverlayTest, CopiesChangeNothing) {
     EXPECT_FALSE(changes("path"));
 }
 
+// Renders are told apart by what was compiled, so equal ones must be of one code: the embedded one is inlined.
+TEST_F(ShaderOverlayTest, ACommentLeavesTheEmbeddedKernel) {
+    write("lib/roulette.glsl", ours("lib/roulette.glsl") + "\n// A comment.\n");
+    EXPECT_EQ(overlay().changed(), Paths{"lib/roulette.glsl"});
+    EXPECT_EQ(overlay().kernel("path").spirv, embeddedKernel("path").spirv);
+}
+
 TEST_F(ShaderOverlayTest, AChangeReachesTheKernelsThatIncludeIt) {
     write("lib/roulette.glsl",
           replaced(ours("lib/roulette.glsl"), "kMaxSurvival = 0.95", "kMaxSurvival = 0.5"));
