@@ -14,8 +14,6 @@
 namespace lavalight {
 namespace {
 
-constexpr const char* kChannelNames = "RGB";
-
 bool isPicture(std::string_view bytes) {
     constexpr std::string_view kPng = "\x89PNG";
     return bytes.starts_with(kPng);

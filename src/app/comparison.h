@@ -34,6 +34,7 @@ struct Criteria {
         significance; // of the Z-test: how often it may take equal renders for different ones
 };
 
+inline constexpr const char* kChannelNames = "RGB";
 // Two unrelated images are around 1; two noisy renders of one scene below 0.1.
 inline constexpr double kDefaultRelMse = 0.01;
 // One false alarm in 10,000 comparisons.

@@ -9,8 +9,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kChannelNames = "RGB";
-
 std::string zTestLine(const ZTestLevel& level) {
     const WelchTest& test = level.test;
     return fmt::format(
