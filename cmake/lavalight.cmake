@@ -5,10 +5,10 @@ add_library(lavalight_options INTERFACE)
 target_compile_options(lavalight_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Werror -ffp-contract=off)
 target_include_directories(lavalight_options INTERFACE ${CMAKE_SOURCE_DIR}/src ${CMAKE_SOURCE_DIR}/shaders)
 
-# lavalight_library(NAME DEPS ... [PRIVATE_DEPS ...] [EXCLUDE file...]): all of src/NAME as lavalight_NAME.
+# lavalight_library(NAME DEPS ... [PRIVATE_DEPS ...] [EXCLUDE file...]): all of src/NAME and below as lavalight_NAME.
 function(lavalight_library name)
     cmake_parse_arguments(ARG "" "" "DEPS;PRIVATE_DEPS;EXCLUDE" ${ARGN})
-    file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/${name}/*.cpp ${CMAKE_SOURCE_DIR}/src/${name}/*.h)
+    file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/${name}/*.cpp ${CMAKE_SOURCE_DIR}/src/${name}/*.h)
     foreach(file ${ARG_EXCLUDE})
         list(REMOVE_ITEM sources ${CMAKE_SOURCE_DIR}/src/${name}/${file})
     endforeach()

@@ -1,5 +1,6 @@
 // Build step: compiles and inlines kernels and writes them as C++ arrays, found by name through
 // NAMESPACE::find.
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <string>
@@ -42,8 +43,14 @@ Arguments parse(int argc, char** argv) {
     return arguments;
 }
 
+std::string identifierOf(const gpu::KernelCode& code) {
+    std::string identifier = code.name;
+    std::replace(identifier.begin(), identifier.end(), '/', '_');
+    return identifier;
+}
+
 std::string arrayOf(const gpu::KernelCode& code) {
-    std::string text = fmt::format("const uint32_t {}[] = {{", code.name);
+    std::string text = fmt::format("const uint32_t {}[] = {{", identifierOf(code));
     for (size_t i = 0; i < code.spirv.size(); ++i)
         text += fmt::format("{}0x{:x},", i % 12 == 0 ? "\n    " : "", code.spirv[i]);
     return text + "\n};\n";
@@ -68,8 +75,8 @@ std::string branchOf(const gpu::KernelCode& code) {
                                 nameOf(binding.kind));
     return fmt::format(
         "    if (name == \"{0}\")\n"
-        "        return {{\"{0}\", \"{3}\", {{std::begin({0}), std::end({0})}}, {{{1}}}, {2}}};\n",
-        code.name, bindings, code.pushConstantBytes, code.content);
+        "        return {{\"{0}\", \"{3}\", {{std::begin({4}), std::end({4})}}, {{{1}}}, {2}}};\n",
+        code.name, bindings, code.pushConstantBytes, code.content, identifierOf(code));
 }
 
 void writeHeader(const Arguments& arguments) {

@@ -1,6 +1,6 @@
 #version 460
 // Adds the finished paths of the wave to the film, one invocation a pixel, exactly.
-#include "lib/fixed_point.glsl"
+#include "lib/film/fixed_point.glsl"
 #include "scene/frame.glsl"
 #include "scene/tally.glsl"
 #include "scene/wave.glsl"

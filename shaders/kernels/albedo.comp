@@ -3,9 +3,9 @@
 // scene/albedo_table.glsl reads them. Each table is rounded so that interpolation in it is never below the albedo: what an
 // albedo leaves to the layers below is then never too much, and white surfaces stay below 1.
 // Three dispatches of a workgroup a row: entries; their rounding; averages of the interpolated GGX rows.
-#include "lib/albedo_grid.glsl"
-#include "lib/bsdf_sheen.glsl"
-#include "lib/bsdf_specular.glsl"
+#include "lib/bsdf/albedo_grid.glsl"
+#include "lib/bsdf/sheen.glsl"
+#include "lib/bsdf/specular.glsl"
 #include "shared/bindings.h"
 
 layout(local_size_x = 64) in; // kAlbedoCosines

@@ -1,7 +1,7 @@
 #version 460
 // The film as a display shows it, one invocation a pixel: mean radiance, exposed, mapped, encoded, in 8 bits a channel.
-#include "lib/fixed_point.glsl"
-#include "lib/tone_map.glsl"
+#include "lib/film/fixed_point.glsl"
+#include "lib/film/tone_map.glsl"
 #include "shared/bindings.h"
 #include "shared/film.h"
 

@@ -1,7 +1,7 @@
 // Camera rays.
-#include "lib/equirectangular.glsl"
+#include "lib/math/equirectangular.glsl"
 #include "lib/features.glsl"
-#include "lib/warp.glsl"
+#include "lib/sampling/warp.glsl"
 #include "shared/frame.h"
 #include "shared/wavefront.h"
 

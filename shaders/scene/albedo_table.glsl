@@ -1,10 +1,10 @@
-// The tabulated directional albedos of the GGX lobe and of sheen that lib/bsdf_layers.glsl asks for. kernels/albedo.comp
+// The tabulated directional albedos of the GGX lobe and of sheen that lib/bsdf/layers.glsl asks for. kernels/albedo.comp
 // has rounded them so that none is less than what the lobe reflects, between the entries neither: what lies below then
 // never gets too much.
-#include "lib/albedo_grid.glsl"
-#include "lib/bsdf_sheen.glsl"
+#include "lib/bsdf/albedo_grid.glsl"
+#include "lib/bsdf/sheen.glsl"
 #include "lib/features.glsl"
-#include "lib/fresnel.glsl"
+#include "lib/bsdf/fresnel.glsl"
 #include "shared/bindings.h"
 
 layout(set = 0, binding = BINDING_ALBEDO_TABLE) uniform usamplerBuffer albedoTable;

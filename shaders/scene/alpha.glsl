@@ -1,7 +1,7 @@
 // Surfaces that let rays through: alpha as coverage, glTF's modes MASK and BLEND. A ray passes or is stopped by chance,
 // triangle by triangle, which is no scattering.
 #include "lib/features.glsl"
-#include "lib/sampler.glsl"
+#include "lib/sampling/sampler.glsl"
 #include "scene/leaf_triangle.glsl"
 #include "scene/material_record.glsl"
 #include "scene/texture.glsl"

@@ -1,8 +1,8 @@
 // What shines where rays hit nothing: one radiance from all sides, or an equirectangular map.
-#include "lib/equirectangular.glsl"
+#include "lib/math/equirectangular.glsl"
 #include "lib/features.glsl"
-#include "lib/onb.glsl"
-#include "lib/warp.glsl"
+#include "lib/math/onb.glsl"
+#include "lib/sampling/warp.glsl"
 #include "scene/light_sample.glsl"
 #include "shared/bindings.h"
 #include "shared/frame.h"

@@ -1,5 +1,5 @@
 // Frame parameters, the range of the wave, and where a slot belongs in the image.
-#include "lib/sampler.glsl"
+#include "lib/sampling/sampler.glsl"
 #include "shared/bindings.h"
 #include "shared/frame.h"
 #include "shared/wavefront.h"

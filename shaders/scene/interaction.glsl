@@ -1,7 +1,7 @@
 // From a hit to the geometry of the surface there.
 #include "lib/features.glsl"
-#include "lib/octahedral.glsl"
-#include "lib/ray_offset.glsl"
+#include "lib/math/octahedral.glsl"
+#include "lib/math/ray_offset.glsl"
 #include "scene/leaf_triangle.glsl"
 #include "scene/tangent_frame.glsl"
 #include "shared/bindings.h"

@@ -1,7 +1,7 @@
 // The frame of every lab kernel: main() takes the samples of one invocation and stores their moments. The kernel gives
 // the estimator, as sampleOnce.
-#include "lib/running_moments.glsl"
-#include "lib/sampler.glsl"
+#include "lib/math/running_moments.glsl"
+#include "lib/sampling/sampler.glsl"
 #include "shared/lab.h"
 
 layout(local_size_x = 64) in;

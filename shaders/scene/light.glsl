@@ -1,6 +1,6 @@
 // Lights: picking one, sampling it from a point, and the density with which that finds a direction.
 #include "lib/features.glsl"
-#include "lib/random.glsl"
+#include "lib/sampling/random.glsl"
 #include "scene/environment.glsl"
 #include "scene/light_tree.glsl"
 #include "scene/punctual_light.glsl"

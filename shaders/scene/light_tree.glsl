@@ -1,6 +1,6 @@
 // Picks a light by descending into one of two children at a time, each as likely as what it may bring to the receiver.
 // Based on: Conty Estevez, Kulla, "Importance Sampling of Many Lights with Adaptive Tree Splitting", 2018, section 5.
-#include "lib/light_importance.glsl"
+#include "lib/sampling/light_importance.glsl"
 #include "scene/receiver.glsl"
 #include "shared/bindings.h"
 

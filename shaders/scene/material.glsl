@@ -2,7 +2,7 @@
 // Based on: glTF 2.0 appendix B; KHR_materials_specular; KHR_materials_ior; KHR_materials_emissive_strength;
 // KHR_materials_transmission; KHR_materials_volume (as the mark of a solid); KHR_materials_anisotropy, _clearcoat, _sheen,
 // _iridescence, _diffuse_transmission.
-#include "lib/bsdf.glsl"
+#include "lib/bsdf/bsdf.glsl"
 #include "scene/albedo_table.glsl"
 #include "scene/material_record.glsl"
 #include "shared/scene.h"

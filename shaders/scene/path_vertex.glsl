@@ -1,8 +1,8 @@
 // One vertex of a path: what it emits, what lights send it directly, and where the path goes on.
 // Based on: Kajiya, "The Rendering Equation", 1986.
-#include "lib/mis.glsl"
-#include "lib/onb.glsl"
-#include "lib/roulette.glsl"
+#include "lib/sampling/mis.glsl"
+#include "lib/math/onb.glsl"
+#include "lib/sampling/roulette.glsl"
 #include "lib/solids.glsl"
 #include "scene/dispersion.glsl"
 #include "scene/frame.glsl"

@@ -3,7 +3,7 @@
 #ifndef LAVALIGHT_RECEIVER_GLSL
 #define LAVALIGHT_RECEIVER_GLSL
 
-#include "lib/octahedral.glsl"
+#include "lib/math/octahedral.glsl"
 
 struct Receiver {
     vec3 p;

@@ -1,6 +1,6 @@
 // Tangents of triangles: the frames that normal maps and anisotropy are given in.
-#include "lib/octahedral.glsl"
-#include "lib/onb.glsl"
+#include "lib/math/octahedral.glsl"
+#include "lib/math/onb.glsl"
 #include "shared/bindings.h"
 #include "shared/texture.h"
 

@@ -1,8 +1,8 @@
 // What textures and vertex colours make of a material at a point: from here on there are only numbers.
 // Based on: glTF 2.0, section 3.9, and the extensions that name the slots, for the channels that each reads.
 #include "lib/features.glsl"
-#include "lib/normal_map.glsl"
-#include "lib/sampler.glsl"
+#include "lib/bsdf/normal_map.glsl"
+#include "lib/sampling/sampler.glsl"
 #include "scene/interaction.glsl"
 #include "scene/material_record.glsl"
 #include "scene/texture.glsl"

@@ -2,9 +2,9 @@
 #ifndef LAVALIGHT_TRAVERSE_GLSL
 #define LAVALIGHT_TRAVERSE_GLSL
 
-#include "lib/constants.glsl"
-#include "lib/ray_box.glsl"
-#include "lib/ray_triangle.glsl"
+#include "lib/math/constants.glsl"
+#include "lib/math/ray_box.glsl"
+#include "lib/math/ray_triangle.glsl"
 #include "scene/alpha_question.glsl"
 #include "scene/leaf_triangle.glsl"
 #include "scene/traversal_stack.glsl"

@@ -1,7 +1,7 @@
 // Emissive triangles as lights, sampled by area, or by solid angle where they are seen large.
-#include "lib/ray_offset.glsl"
-#include "lib/spherical_triangle.glsl"
-#include "lib/warp.glsl"
+#include "lib/math/ray_offset.glsl"
+#include "lib/sampling/spherical_triangle.glsl"
+#include "lib/sampling/warp.glsl"
 #include "scene/alpha.glsl"
 #include "scene/leaf_triangle.glsl"
 #include "scene/light_sample.glsl"

@@ -29,7 +29,7 @@ struct FrameParameters {
     uint firstLightColumn; // among the lights; those before it are in the light tree
     uint environmentWidth; // texels of the map; 0: there is none
     uint environmentHeight;
-    float environmentRotation; // turns (lib/equirectangular.glsl says which way u grows)
+    float environmentRotation; // turns (lib/math/equirectangular.glsl says which way u grows)
     float lensRadius;          // metres; 0: pinhole
     float focusDistance;       // metres along cameraForward to the plane that is sharp
     uint unused0;
@@ -52,7 +52,7 @@ struct FrameParameters {
 
 SHARED_CONST uint kProjectionPerspective = 0u;
 SHARED_CONST uint kProjectionOrthographic = 1u;
-SHARED_CONST uint kProjectionPanorama = 2u; // all directions, as in lib/equirectangular.glsl
+SHARED_CONST uint kProjectionPanorama = 2u; // all directions, as in lib/math/equirectangular.glsl
 
 // Values of those constants; the C++ enumerations use the same numbers.
 SHARED_CONST uint kSamplerSobol = 0u;

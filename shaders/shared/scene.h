@@ -159,7 +159,7 @@ SHARED_CONST uint kFeatureSolids = 0x8000000u; // two solids that may overlap
 SHARED_CONST uint kFeatureManyTriangles = 0x10000000u; // so that it pays to trace alike rays together
 SHARED_CONST uint kAllFeatures = 0x1fffffffu;
 
-// Directional albedos of the GGX lobe and of sheen, tabulated over angle and roughness (lib/albedo_grid.glsl), row by row;
+// Directional albedos of the GGX lobe and of sheen, tabulated over angle and roughness (lib/bsdf/albedo_grid.glsl), row by row;
 // then the cosine-weighted averages of the GGX lobe's, kAveragesPerRow to the distance of two rows.
 SHARED_CONST uint kAlbedoCosines = 64u;
 SHARED_CONST uint kAlbedoRoughnesses = 32u;

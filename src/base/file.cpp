@@ -12,7 +12,7 @@
 #include <unistd.h>
 
 #include "base/error.h"
-#include "base/memory.h"
+#include "base/os/memory.h"
 
 namespace lavalight {
 namespace {

@@ -89,6 +89,16 @@ void rejectClashes(const KernelCode& code) {
                                     code.bindings[i].binding));
 }
 
+// "lab/dice" of ".../kernels/lab/dice.comp", "dice" of a file that lies elsewhere.
+std::string kernelName(const std::filesystem::path& file) {
+    std::filesystem::path name = file.stem();
+    for (std::filesystem::path folder = file.parent_path(), below = name; folder.has_filename();
+         below = folder.filename() / below, folder = folder.parent_path())
+        if (folder.filename() == "kernels")
+            name = below;
+    return name.generic_string();
+}
+
 } // namespace
 
 KernelCode compileKernel(const ShaderText& source, const ShaderFiles& includes) {
@@ -116,7 +126,7 @@ KernelCode compileKernel(const ShaderText& source, const ShaderFiles& includes) 
         throw Error(fmt::format("cannot link {}:\n{}", source.name, program.getInfoLog()));
 
     KernelCode code;
-    code.name = std::filesystem::path(source.name).stem().string();
+    code.name = kernelName(source.name);
     code.bindings = reflectBindings(program);
     code.pushConstantBytes = reflectPushConstantBytes(program);
     rejectClashes(code);

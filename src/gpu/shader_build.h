@@ -23,7 +23,7 @@ struct KernelBinding {
 
 // A compiled kernel with what is needed to build its pipeline layout.
 struct KernelCode {
-    std::string name;            // file name without folder and extension
+    std::string name;            // path below kernels/, without extension
     std::string content;         // ContentHash of the SPIR-V as compiled, by which kernels are told apart
     std::vector<uint32_t> spirv; // as compiled, or inlined() since
     std::vector<KernelBinding> bindings; // ascending binding numbers
@@ -36,7 +36,7 @@ struct ShaderText {
     std::string text;
 };
 
-// Finds shader files by their path below shaders/, such as "lib/mis.glsl".
+// Finds shader files by their path below shaders/, such as "lib/sampling/mis.glsl".
 using ShaderFiles = std::function<std::optional<ShaderText>(const std::string& path)>;
 
 // Compiles an entry point (GLSL 4.60, SPIR-V 1.5 for Vulkan 1.2). #include "a/b.glsl" asks `includes`, so

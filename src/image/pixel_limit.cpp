@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "base/memory.h"
+#include "base/os/memory.h"
 
 namespace lavalight {
 

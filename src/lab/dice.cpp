@@ -42,7 +42,7 @@ EstimatorRow rowOf(const DiceWay& way, const SampleKernel& kernel, const LabOpti
 } // namespace
 
 std::vector<Table> runDice(gpu::Device& device, const LabOptions& options) {
-    const SampleKernel kernel(device, "lab_dice");
+    const SampleKernel kernel(device, "lab/dice");
     const double best = bestDieProbability();
     const std::array<DiceWay, 5> ways{
         {{"both dice", kDiceTogether, 0.0},

@@ -22,7 +22,7 @@ EstimatorRow rowOf(const char* name, Fresnel fresnel, double eta, const SampleKe
 }
 
 Table reflectance(gpu::Device& device, uint32_t seed) {
-    const SampleKernel kernel(device, "lab_fresnel");
+    const SampleKernel kernel(device, "lab/fresnel");
     Table table =
         estimatorTable("reflectance", "Mean reflectance of glass (index 1.5) under diffuse light",
                        {rowOf("exact, from outside", Fresnel::exact, kGlass, kernel, seed),

@@ -43,7 +43,7 @@ EstimatorRow rowOf(const Pick& pick, const SampleKernel& kernel, const LabOption
 }
 
 Table spheres(gpu::Device& device, const LabOptions& options) {
-    const SampleKernel kernel(device, "lab_lights");
+    const SampleKernel kernel(device, "lab/lights");
     const double byPower = kLarge.power() / (kLarge.power() + kSmall.power());
     const std::array<Pick, 4> picks{{{"uniform", 0.5},
                                      {"by power", byPower},

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "render/renderer.h"
-#include "scene/builtin.h"
+#include "session/builtin.h"
 
 namespace lavalight {
 namespace {

@@ -34,7 +34,7 @@ EstimatorRow rowOf(const std::string& name, uint32_t kind, double survival, cons
 }
 
 Table rays(gpu::Device& device, uint32_t seed) {
-    const SampleKernel kernel(device, "lab_roulette");
+    const SampleKernel kernel(device, "lab/roulette");
     Table table =
         estimatorTable("rays", "Power of 8 rays of 16 W",
                        {rowOf("all go on", kRouletteMadeUp, 1.0, kernel, seed),

@@ -7,7 +7,7 @@
 
 #include "gpu/buffer.h"
 #include "gpu/commands.h"
-#include "kernels.h"
+#include "kernels/kernel_source.h"
 #include "shared/frame.h"
 
 namespace lavalight {
@@ -24,7 +24,7 @@ constexpr uint32_t kSequenceSamplesEach = 64;
 gpu::Kernel makeKernel(const gpu::Device& device, std::string_view name, Sampler sampler) {
     const std::array<gpu::SpecialisationConstant, 1> constants{
         {{CONSTANT_SAMPLER, static_cast<uint32_t>(sampler)}}};
-    return {device, kernels::find(name), constants};
+    return {device, embeddedKernel(name), constants};
 }
 
 Moments fromDevice(const LabMoments& m) {

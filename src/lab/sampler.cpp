@@ -156,8 +156,8 @@ Convergence renderBox(gpu::Device& device, uint32_t seed) {
 } // namespace
 
 std::vector<Table> runSampler(gpu::Device& device, const LabOptions& options) {
-    const std::array<SampleKernel, 2> kernels{SampleKernel(device, "lab_sampler", kSamplers[0]),
-                                              SampleKernel(device, "lab_sampler", kSamplers[1])};
+    const std::array<SampleKernel, 2> kernels{SampleKernel(device, "lab/sampler", kSamplers[0]),
+                                              SampleKernel(device, "lab/sampler", kSamplers[1])};
     std::vector<Table> tables;
     Table fits{"slopes",
                "Slope of log(RMSE) against log(samples)",

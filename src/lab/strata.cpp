@@ -41,7 +41,7 @@ std::vector<float> backwardsPmf(uint32_t count) {
 class StrataRows {
   public:
     StrataRows(gpu::Device& device, const LabOptions& options)
-        : kernel_(device, "lab_strata"), seed_(options.seed), evaluations_(options.samples) {}
+        : kernel_(device, "lab/strata"), seed_(options.seed), evaluations_(options.samples) {}
 
     void addPicked(const std::string& name, const std::vector<float>& pmf) {
         const auto count = static_cast<uint32_t>(pmf.size());

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/texel.h"
+#include "image/texel.h"
 
 namespace lavalight {
 namespace {

@@ -4,13 +4,8 @@
 #include <chrono>
 
 #include "gpu/warm_up.h"
-#include "kernels.h"
 
 namespace lavalight {
-
-gpu::KernelCode embeddedKernel(std::string_view name) {
-    return kernels::find(name);
-}
 
 std::vector<gpu::SpecialisationConstant> estimatorConstants(const EstimatorSettings& settings,
                                                             uint32_t features) {

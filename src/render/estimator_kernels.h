@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "gpu/kernel.h"
-#include "render/kernel_source.h"
+#include "kernels/kernel_source.h"
 #include "render/settings.h"
 
 namespace lavalight {

@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
+#include "film/raw_film.h"
 #include "gpu/buffer.h"
 #include "image/image.h"
-#include "render/raw_film.h"
 #include "shared/film.h"
 
 namespace lavalight {

@@ -8,7 +8,7 @@
 #include <optional>
 #include <utility>
 
-#include "render/scene_features.h"
+#include "device_scene/scene_features.h"
 #include "render/wave_budget.h"
 #include "shared/scene.h"
 

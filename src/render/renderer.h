@@ -8,18 +8,17 @@
 #include <utility>
 #include <vector>
 
+#include "device_scene/gpu_scene.h"
+#include "film/stop_reason.h"
 #include "gpu/commands.h"
 #include "gpu/device.h"
 #include "image/image.h"
 #include "render/film.h"
-#include "render/gpu_scene.h"
 #include "render/settings.h"
 #include "render/wave_renderer.h"
 #include "scene/scene.h"
 
 namespace lavalight {
-
-enum class StopReason { samples, time, targetError, interrupted };
 
 // The next wave of a render. Passes take samples of all pixels, waves go through them band by band.
 struct RenderPosition {

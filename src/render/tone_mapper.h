@@ -10,8 +10,8 @@
 #include "gpu/commands.h"
 #include "gpu/device.h"
 #include "gpu/kernel.h"
+#include "kernels/kernel_source.h"
 #include "render/film.h"
-#include "render/kernel_source.h"
 #include "render/tone_settings.h"
 
 namespace lavalight {

@@ -8,28 +8,18 @@
 #include <span>
 #include <vector>
 
+#include "device_scene/gpu_scene.h"
+#include "film/film_cost.h"
 #include "gpu/buffer.h"
 #include "gpu/commands.h"
 #include "gpu/kernel.h"
 #include "render/estimator_kernels.h"
 #include "render/film.h"
-#include "render/gpu_scene.h"
 #include "render/settings.h"
 #include "shared/frame.h"
 #include "shared/wavefront.h"
 
 namespace lavalight {
-
-// Rays traced so far.
-struct RayCounts {
-    uint64_t camera = 0;
-    uint64_t indirect = 0;
-    uint64_t shadow = 0;
-    [[nodiscard]] uint64_t total() const { return camera + indirect + shadow; }
-    [[nodiscard]] RayCounts operator+(const RayCounts& more) const {
-        return {camera + more.camera, indirect + more.indirect, shadow + more.shadow};
-    }
-};
 
 class WaveRenderer {
   public:

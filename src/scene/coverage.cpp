@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "scene/texel.h"
+#include "image/texel.h"
 
 namespace lavalight {
 namespace {

@@ -12,10 +12,9 @@
 
 #include "image/image.h"
 #include "image/picture.h"
+#include "image/texel.h"
 
 namespace lavalight {
-
-enum class Wrap : uint32_t { repeat, mirror, clamp };
 
 // What a picture is used for in a material; the order is that of kSlot... in shaders/shared/scene.h.
 enum class TextureSlot : uint32_t {

@@ -123,7 +123,7 @@ std::optional<glm::vec2> project(const Camera& camera, float aspect, const glm::
     const glm::vec3 local(glm::dot(offset, camera.right), glm::dot(offset, camera.up),
                           glm::dot(offset, camera.forward));
     if (camera.projection == Projection::panorama) {
-        // As lib/equirectangular.glsl: a panorama has the world's axes.
+        // As lib/math/equirectangular.glsl: a panorama has the world's axes.
         constexpr float kPi = std::numbers::pi_v<float>;
         const glm::vec3 direction = glm::normalize(offset);
         const float u = 0.5f + std::atan2(direction.z, direction.x) / (2.0f * kPi);

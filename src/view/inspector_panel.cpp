@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "render/traced_fate.h"
+#include "inspect/traced_fate.h"
 #include "view/widgets.h"
 
 namespace lavalight {

@@ -9,7 +9,7 @@
 #include <glm/glm.hpp>
 
 #include "gpu/commands.h"
-#include "render/path_trace.h"
+#include "inspect/path_trace.h"
 #include "render/wave_renderer.h"
 #include "scene/scene.h"
 

@@ -4,8 +4,8 @@
 #include <memory>
 #include <optional>
 
+#include "kernels/shader_overlay.h"
 #include "render/settings.h"
-#include "render/shader_overlay.h"
 #include "render/tone_settings.h"
 #include "scene/scene.h"
 

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "gpu/device.h"
-#include "render/path_trace.h"
+#include "inspect/path_trace.h"
 #include "render/renderer.h"
 #include "render/tone_mapper.h"
 #include "view/live_picture.h"

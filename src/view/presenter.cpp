@@ -251,7 +251,8 @@ void Presenter::record(const Swapchain::Image& image, float splitAt) {
     const glm::uvec2 size = swapchain_->pixels();
     commands.beginRenderPass(vk::RenderPassBeginInfo(*pass_, image.framebuffer, {{0, 0}, {size.x, size.y}}),
                              vk::SubpassContents::eInline);
-    // What throws while it lets its buffers grow has freed the old ones, and would do so again at its shutdown.
+    // What throws while it lets its buffers grow has freed the old ones, and would do so again at its
+    // shutdown.
     hasOverlay_ = false;
     ImGui_ImplVulkan_RenderDrawData(ImGui::GetDrawData(), *commands);
     hasOverlay_ = true;

@@ -4,7 +4,7 @@
 
 #include "image/exr.h"
 #include "image/png.h"
-#include "render/report.h"
+#include "session/report.h"
 
 namespace lavalight {
 namespace {

@@ -8,8 +8,8 @@
 #include <string>
 #include <thread>
 
+#include "gltf/import_options.h"
 #include "render/settings.h"
-#include "scene/import_options.h"
 #include "scene/scene.h"
 
 namespace lavalight {

@@ -11,9 +11,9 @@
 #include <thread>
 #include <vector>
 
-#include "base/file_watch.h"
+#include "base/os/file_watch.h"
+#include "kernels/shader_overlay.h"
 #include "render/settings.h"
-#include "render/shader_overlay.h"
 
 namespace lavalight {
 

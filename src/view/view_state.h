@@ -4,9 +4,9 @@
 #include <memory>
 #include <string>
 
+#include "gltf/import_options.h"
 #include "render/settings.h"
 #include "render/tone_settings.h"
-#include "scene/import_options.h"
 #include "scene/scene.h"
 #include "view/camera_rig.h"
 

@@ -3,9 +3,9 @@
 #include <cstdint>
 
 #include "base/error.h"
+#include "film/film_file.h"
 #include "fuzz/memory_file.h"
 #include "image/exr.h"
-#include "render/film_file.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     const lavalight::test::MemoryFile file(data, size);

@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "base/error.h"
-#include "scene/gltf_import.h"
+#include "gltf/import.h"
 #include "support/sound_scene.h"
 
 namespace {

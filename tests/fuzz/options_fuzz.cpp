@@ -7,15 +7,15 @@
 
 #include <CLI/CLI.hpp>
 
-#include "app/command_line.h"
-#include "app/frame_sequence.h"
-#include "app/option_values.h"
-#include "app/render_options.h"
-#include "app/scene_options.h"
-#include "app/tone_options.h"
 #include "base/error.h"
+#include "cli/command_line.h"
+#include "cli/options/option_values.h"
+#include "cli/options/render_options.h"
+#include "cli/options/scene_options.h"
+#include "cli/options/tone_options.h"
+#include "film/sample_ranges.h"
 #include "render/renderer.h"
-#include "render/sample_ranges.h"
+#include "session/frame_sequence.h"
 
 namespace {
 

@@ -15,7 +15,7 @@
 #include <ImfTiledOutputFile.h>
 #include <fmt/format.h>
 
-#include "render/film_file.h"
+#include "film/film_file.h"
 #include "support/film_files.h"
 
 namespace {

@@ -1,8 +1,8 @@
 #version 460
 // The tabulated albedos of the GGX lobe and of sheen beside brute-force integrals of the lobes that shading evaluates: kStrata answers to
 // a question, each a row of strata, since lavapipe ends all loops of an invocation after 65,535 turns without a word.
-#include "lib/bsdf_sheen.glsl"
-#include "lib/bsdf_specular.glsl"
+#include "lib/bsdf/sheen.glsl"
+#include "lib/bsdf/specular.glsl"
 #include "scene/albedo_table.glsl"
 
 const uint kStrata = 512u; // per axis: directions lost below the horizon make the integrand jump

@@ -11,8 +11,8 @@
 #include <glm/glm.hpp>
 #include <gtest/gtest.h>
 
-#include "render/albedo_table.h"
-#include "render/kernel_source.h"
+#include "device_scene/albedo_table.h"
+#include "kernels/kernel_source.h"
 #include "shared/scene.h"
 #include "support/run_kernel.h"
 #include "support/test_device.h"

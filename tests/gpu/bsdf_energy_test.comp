@@ -1,6 +1,6 @@
 #version 460
 // Directional albedo of a material by Monte Carlo: sums over batches of BSDF samples.
-#include "lib/sampler.glsl"
+#include "lib/sampling/sampler.glsl"
 #include "scene/material.glsl"
 
 const uint kBatch = 1024u;

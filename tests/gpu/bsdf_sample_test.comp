@@ -1,6 +1,6 @@
 #version 460
 // Samples of the whole BSDF of a material, with what eval and pdf say about the same directions.
-#include "lib/sampler.glsl"
+#include "lib/sampling/sampler.glsl"
 #include "scene/material.glsl"
 
 struct Answer {

@@ -6,10 +6,10 @@
 #include <gtest/gtest.h>
 
 #include "accel/bvh.h"
-#include "accel/embree_oracle.h"
-#include "render/gpu_scene.h"
-#include "render/ray_sets.h"
-#include "render/ray_tracer.h"
+#include "device_scene/gpu_scene.h"
+#include "inspect/embree_oracle.h"
+#include "inspect/ray_sets.h"
+#include "inspect/ray_tracer.h"
 #include "support/closed_meshes.h"
 #include "support/random_numbers.h"
 #include "support/test_device.h"

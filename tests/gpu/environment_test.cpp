@@ -10,9 +10,9 @@
 #include <glm/glm.hpp>
 #include <gtest/gtest.h>
 
+#include "device_scene/gpu_scene.h"
 #include "gpu/buffer.h"
 #include "light/lights.h"
-#include "render/gpu_scene.h"
 #include "render/renderer.h"
 #include "support/chi_square.h"
 #include "support/environment_maps.h"

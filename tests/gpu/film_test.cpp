@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "gpu/commands.h"
-#include "kernels.h"
+#include "kernels/kernel_source.h"
 #include "render/film.h"
 #include "shared/frame.h"
 #include "shared/wavefront.h"
@@ -38,7 +38,7 @@ class FilmTest : public DeviceTest {
         resources.set("Paths", paths);
         resources.set("Film", film.bands().front().sums);
         resources.set("Tallies", film.tallies());
-        const gpu::Kernel kernel(device(), kernels::find("accumulate"));
+        const gpu::Kernel kernel(device(), embeddedKernel("accumulate"));
         const gpu::BoundKernel bound(device(), kernel, resources);
         const WaveRange range{0, kPixels, 0, 1, 0, 0, 0, 0, 0};
         gpu::Commands commands(device());

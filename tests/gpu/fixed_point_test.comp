@@ -1,6 +1,6 @@
 #version 460
 // Adds runs of floats to exact sums of three and of four words, and reads the sum of three.
-#include "lib/fixed_point.glsl"
+#include "lib/film/fixed_point.glsl"
 #include "shared/film.h"
 
 const uint kRun = 16u;

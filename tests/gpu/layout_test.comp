@@ -1,7 +1,7 @@
 #version 460
 // Writes each shared struct with its members counted upwards, into the second element of an array: what the scene loads
 // through texel buffers is passed on as loaded.
-#include "lib/ray_offset.glsl"
+#include "lib/math/ray_offset.glsl"
 #include "scene/light.glsl"
 #include "scene/tangent_frame.glsl"
 #include "scene/traverse.glsl"

@@ -1,6 +1,6 @@
 #version 460
 // Picks lights and samples them as next-event estimation does.
-#include "lib/sampler.glsl"
+#include "lib/sampling/sampler.glsl"
 #include "scene/light.glsl"
 
 struct Answer {

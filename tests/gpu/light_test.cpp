@@ -7,10 +7,10 @@
 #include <glm/glm.hpp>
 #include <gtest/gtest.h>
 
+#include "device_scene/gpu_scene.h"
+#include "device_scene/scene_features.h"
 #include "light/lights.h"
-#include "render/gpu_scene.h"
 #include "render/renderer.h"
-#include "render/scene_features.h"
 #include "shared/frame.h"
 #include "support/chi_square.h"
 #include "support/random_numbers.h"

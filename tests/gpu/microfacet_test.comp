@@ -1,6 +1,6 @@
 #version 460
 // Visible normals: sampled, or their density at given ones.
-#include "lib/microfacet.glsl"
+#include "lib/bsdf/microfacet.glsl"
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0, std430) readonly buffer In { vec4 questions[]; }; // a point of the square, or a normal

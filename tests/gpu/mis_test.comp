@@ -1,6 +1,6 @@
 #version 460
 // Weights of both of two techniques with given densities.
-#include "lib/mis.glsl"
+#include "lib/sampling/mis.glsl"
 
 struct Question {
     float own;

@@ -1,6 +1,6 @@
 #version 460
 // Unpacks unit vectors.
-#include "lib/octahedral.glsl"
+#include "lib/math/octahedral.glsl"
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0, std430) readonly buffer In { uint words[]; };

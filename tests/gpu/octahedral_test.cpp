@@ -5,7 +5,7 @@
 #include <glm/glm.hpp>
 #include <gtest/gtest.h>
 
-#include "render/octahedral.h"
+#include "device_scene/octahedral.h"
 #include "support/random_numbers.h"
 #include "support/run_kernel.h"
 #include "support/test_device.h"

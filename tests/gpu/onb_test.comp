@@ -1,6 +1,6 @@
 #version 460
 // Bases around unit vectors.
-#include "lib/onb.glsl"
+#include "lib/math/onb.glsl"
 
 struct Answer {
     vec4 tangent;

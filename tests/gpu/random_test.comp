@@ -1,6 +1,6 @@
 #version 460
 // The pairs of sample words of given keys.
-#include "lib/sampler.glsl"
+#include "lib/sampling/sampler.glsl"
 
 struct Key {
     uint seed, pixel, index, vertex, dimension;

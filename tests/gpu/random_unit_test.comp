@@ -1,6 +1,6 @@
 #version 460
 // Random words as numbers in [0, 1).
-#include "lib/random.glsl"
+#include "lib/sampling/random.glsl"
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0, std430) readonly buffer In { uint words[]; };

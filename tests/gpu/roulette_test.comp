@@ -1,6 +1,6 @@
 #version 460
 // Survival probabilities of paths, by albedo and by throughput.
-#include "lib/roulette.glsl"
+#include "lib/sampling/roulette.glsl"
 
 struct Question {
     vec3 color; // throughput, or albedo

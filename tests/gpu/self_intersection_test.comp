@@ -1,7 +1,7 @@
 #version 460
 // Follows rays to their first hit and starts two more there: one away from the surface, one through it.
-#include "lib/onb.glsl"
-#include "lib/sampler.glsl"
+#include "lib/math/onb.glsl"
+#include "lib/sampling/sampler.glsl"
 #include "scene/interaction.glsl"
 #include "scene/traverse.glsl"
 

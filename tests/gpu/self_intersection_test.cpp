@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "render/gpu_scene.h"
-#include "render/ray_sets.h"
+#include "device_scene/gpu_scene.h"
+#include "inspect/ray_sets.h"
 #include "shared/wavefront.h"
 #include "support/closed_meshes.h"
 #include "support/random_numbers.h"

@@ -7,7 +7,7 @@
 #include "base/file.h"
 #include "gpu/shader_build.h"
 #include "gpu/spirv_passes.h"
-#include "render/kernel_source.h"
+#include "kernels/kernel_source.h"
 #include "support/temporary_folder.h"
 
 namespace lavalight::test {

@@ -1,6 +1,6 @@
 #version 460
 // The pair and the single number of pixels' samples, one after another, pixel by pixel.
-#include "lib/sampler.glsl"
+#include "lib/sampling/sampler.glsl"
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 1, std430) writeonly buffer Out { uvec4 words[]; };

@@ -9,7 +9,7 @@
 #include <glm/glm.hpp>
 #include <gtest/gtest.h>
 
-#include "render/gpu_textures.h"
+#include "device_scene/gpu_textures.h"
 #include "support/pictures.h"
 #include "support/random_numbers.h"
 #include "support/run_kernel.h"

@@ -1,6 +1,6 @@
 #version 460
 // The reflectance of thin films, and of what they lie on.
-#include "lib/thin_film.glsl"
+#include "lib/bsdf/thin_film.glsl"
 
 struct Question {
     vec3 f0; // of the base

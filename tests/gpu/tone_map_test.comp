@@ -1,6 +1,6 @@
 #version 460
 // Maps colours by every curve.
-#include "lib/tone_map.glsl"
+#include "lib/film/tone_map.glsl"
 
 struct Question {
     vec3 color;

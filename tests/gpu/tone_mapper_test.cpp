@@ -11,7 +11,7 @@
 
 #include "render/renderer.h"
 #include "render/setting_names.h"
-#include "scene/builtin.h"
+#include "session/builtin.h"
 #include "support/render_scene.h"
 #include "support/test_device.h"
 #include "support/tone_reference.h"

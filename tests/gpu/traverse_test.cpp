@@ -6,11 +6,11 @@
 
 #include <gtest/gtest.h>
 
-#include "accel/embree_oracle.h"
-#include "render/gpu_scene.h"
-#include "render/ray_sets.h"
-#include "render/ray_tracer.h"
-#include "scene/dense_scene.h"
+#include "device_scene/gpu_scene.h"
+#include "inspect/embree_oracle.h"
+#include "inspect/ray_sets.h"
+#include "inspect/ray_tracer.h"
+#include "scene/procedural/dense_scene.h"
 #include "support/test_device.h"
 
 namespace lavalight::test {

@@ -1,6 +1,6 @@
 #version 460
-// The warps of lib/warp.glsl and their densities, one question per element.
-#include "lib/warp.glsl"
+// The warps of lib/sampling/warp.glsl and their densities, one question per element.
+#include "lib/sampling/warp.glsl"
 
 const uint kDisk = 0u;
 const uint kCosineHemisphere = 1u;

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "scene/builtin.h"
+#include "session/builtin.h"
 #include "support/mean_test.h"
 #include "support/patched_kernel.h"
 #include "support/render_scene.h"

@@ -6,9 +6,9 @@
 
 #include <gtest/gtest.h>
 
-#include "render/fingerprint.h"
+#include "render/render_fingerprint.h"
 #include "render/renderer.h"
-#include "scene/builtin.h"
+#include "session/builtin.h"
 #include "support/render_scene.h"
 #include "support/test_device.h"
 

@@ -7,10 +7,10 @@
 
 #include <gtest/gtest.h>
 
+#include "compare/statistics.h"
 #include "image/exr.h"
-#include "image/statistics.h"
 #include "render/renderer.h"
-#include "scene/builtin.h"
+#include "session/builtin.h"
 #include "support/render_scene.h"
 #include "support/test_device.h"
 

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "render/setting_names.h"
-#include "scene/builtin.h"
+#include "session/builtin.h"
 #include "support/patched_kernel.h"
 #include "support/render_scene.h"
 #include "support/test_device.h"

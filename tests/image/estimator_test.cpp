@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "scene/builtin.h"
+#include "session/builtin.h"
 #include "support/estimator_variants.h"
 #include "support/scene_builder.h"
 #include "support/test_device.h"

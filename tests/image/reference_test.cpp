@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "image/exr.h"
-#include "scene/builtin.h"
+#include "session/builtin.h"
 #include "support/render_scene.h"
 #include "support/test_device.h"
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "base/error.h"
-#include "render/film_file.h"
+#include "film/film_file.h"
 
 namespace lavalight::test {
 

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "image/statistics.h"
+#include "compare/statistics.h"
 
 namespace lavalight::test {
 namespace {

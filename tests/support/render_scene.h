@@ -7,9 +7,9 @@
 
 #include <glm/glm.hpp>
 
+#include "compare/statistics.h"
 #include "gpu/device.h"
 #include "image/image.h"
-#include "image/statistics.h"
 #include "render/estimator_kernels.h"
 #include "render/film.h"
 #include "render/settings.h"

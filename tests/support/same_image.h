@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "render/film_file.h"
+#include "film/film_file.h"
 
 namespace lavalight::test {
 

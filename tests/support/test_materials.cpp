@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "render/albedo_table.h"
-#include "render/kernel_source.h"
+#include "device_scene/albedo_table.h"
+#include "kernels/kernel_source.h"
 
 namespace lavalight::test {
 namespace {

@@ -1,4 +1,4 @@
-// The curves of lib/tone_map.glsl in double precision, from the publications' own statements of them.
+// The curves of lib/film/tone_map.glsl in double precision, from the publications' own statements of them.
 #pragma once
 
 #include <glm/glm.hpp>

@@ -1,12 +1,12 @@
 // Every combination of the estimators' settings has the mean of the default, on every scene of our own:
-// hours, so no part of the test suite. tools/validate builds and runs it.
+// hours, so no part of the test suite. tools/ci/validate builds and runs it.
 #include <algorithm>
 #include <cstdlib>
 #include <string>
 
 #include <gtest/gtest.h>
 
-#include "scene/builtin.h"
+#include "session/builtin.h"
 #include "support/estimator_variants.h"
 #include "support/test_device.h"
 

@@ -1,4 +1,5 @@
-// Drops a file on a window, for tools/soak. Arguments: the file and the window's number; DISPLAY says where.
+// Drops a file on a window, for tools/ci/soak. Arguments: the file and the window's number; DISPLAY says
+// where.
 #include <cstdio>
 #include <exception>
 #include <stdexcept>

@@ -218,7 +218,8 @@ TEST_F(View, SavesWhereTheCameraIs) {
 
 TEST_F(View, CompilesShadersAtEverySaveAndGoesOnWhereTheyAreBroken) {
     const std::string file = (folder_ / "mine/lib/roulette.glsl").string();
-    ASSERT_EQ(runLavalight({"new-experiment", "mine", "lib/roulette.glsl"}, folder_.path()).exitCode, 0);
+    ASSERT_EQ(runLavalight({"new-experiment", "mine", "lib/sampling/roulette.glsl"}, folder_.path()).exitCode,
+              0);
     const std::string ours = readFile(file);
     const auto save = [&](const std::string& cap) {
         std::string text = ours;

@@ -8,7 +8,7 @@
 
 #include "base/error.h"
 #include "bvh_walk.h"
-#include "scene/dense_scene.h"
+#include "scene/procedural/dense_scene.h"
 #include "support/random_numbers.h"
 
 namespace lavalight::test {

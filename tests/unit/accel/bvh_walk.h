@@ -8,7 +8,7 @@
 #include <span>
 
 #include "accel/bvh.h"
-#include "accel/embree_oracle.h"
+#include "inspect/embree_oracle.h"
 
 namespace lavalight::test {
 

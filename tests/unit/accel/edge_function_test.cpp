@@ -1,4 +1,4 @@
-// What lib/ray_triangle.glsl builds on: the sign of a 2-D cross product in floats is right or lost to 0,
+// What lib/math/ray_triangle.glsl builds on: the sign of a 2-D cross product in floats is right or lost to 0,
 // never wrong.
 #include <gtest/gtest.h>
 

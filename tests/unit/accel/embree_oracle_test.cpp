@@ -1,5 +1,5 @@
 // The oracle answers plain questions as geometry does.
-#include "accel/embree_oracle.h"
+#include "inspect/embree_oracle.h"
 
 #include <cmath>
 

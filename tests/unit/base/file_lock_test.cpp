@@ -9,7 +9,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
-#include "base/file_lock.h"
+#include "base/os/file_lock.h"
 #include "support/temporary_folder.h"
 
 namespace lavalight {

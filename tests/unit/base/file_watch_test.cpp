@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
-#include "base/file_watch.h"
+#include "base/os/file_watch.h"
 #include "support/temporary_folder.h"
 
 namespace lavalight::test {

@@ -1,5 +1,5 @@
 // Tests of asking for memory before it is taken, and of giving it back.
-#include "base/memory.h"
+#include "base/os/memory.h"
 
 #include <cstdlib>
 #include <memory>

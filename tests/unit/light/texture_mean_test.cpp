@@ -4,7 +4,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-#include "scene/texel.h"
+#include "image/texel.h"
 #include "support/pictures.h"
 #include "support/random_numbers.h"
 

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "scene/framing_camera.h"
-#include "unit/scene/gltf_builder.h"
+#include "unit/gltf/builder.h"
 
 namespace lavalight::test {
 namespace {

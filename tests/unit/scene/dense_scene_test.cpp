@@ -1,5 +1,5 @@
 // The bench scene has the size asked for, is always the same, and is sound geometry.
-#include "scene/dense_scene.h"
+#include "scene/procedural/dense_scene.h"
 
 #include <cstring>
 

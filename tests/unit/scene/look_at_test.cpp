@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "scene/look_at.h"
-#include "unit/scene/gltf_builder.h"
+#include "unit/gltf/builder.h"
 
 namespace lavalight::test {
 namespace {

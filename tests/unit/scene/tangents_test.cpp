@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "scene/gltf_import.h"
+#include "gltf/import.h"
 #include "scene/tangents.h"
 
 namespace lavalight::test {

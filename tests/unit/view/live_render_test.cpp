@@ -13,10 +13,10 @@
 
 #include "base/file.h"
 #include "image/exr.h"
-#include "render/path_trace.h"
+#include "inspect/path_trace.h"
 #include "render/renderer.h"
 #include "render/tone_mapper.h"
-#include "scene/builtin.h"
+#include "session/builtin.h"
 #include "support/temporary_folder.h"
 #include "support/test_device.h"
 #include "view/live_render.h"
@@ -118,7 +118,7 @@ TEST_F(LiveRenderTest, PathsAreOfTheEstimatorAndShadersThatAreShown) {
     std::filesystem::create_directory(folder / "lib");
     std::string diffuse = readFile(LAVALIGHT_SOURCE_DIR "/shaders/lib/bsdf_diffuse.glsl");
     diffuse.insert(diffuse.find("kInvPi * max"), "0.9 * ");
-    std::ofstream(folder / "lib/bsdf_diffuse.glsl") << diffuse;
+    std::ofstream(folder / "lib/bsdf/diffuse.glsl") << diffuse;
     const LiveRequest plain = requestFor("cornell-box");
     LiveRequest scattered = plain; // without light samples
     scattered.settings.estimator.nextEventEstimation = false;
@@ -203,12 +203,13 @@ TEST_F(LiveRenderTest, WhatCannotBeRenderedIsToldAndTheImageBeforeGoesOn) {
     (void)waitForImage();
     const TemporaryFolder folder;
     std::filesystem::create_directory(folder / "lib");
-    std::ofstream(folder / "lib/roulette.glsl") << "this is no shader";
+    std::ofstream(folder / "lib/sampling/roulette.glsl") << "this is no shader";
     LiveRequest broken = requestFor("veach-mis");
     broken.shaders = std::make_shared<ShaderOverlay>(folder.path());
     render_.show(broken);
     const LiveNews news = waitFor([](const LiveNews& n) { return !n.errors.empty() && n.isFinished; });
-    EXPECT_NE(news.errors.front().find("lib/roulette.glsl:1"), std::string::npos) << news.errors.front();
+    EXPECT_NE(news.errors.front().find("lib/sampling/roulette.glsl:1"), std::string::npos)
+        << news.errors.front();
     EXPECT_EQ(inspect({20, 15}).scene, before.scene);
     LiveRequest next = before;
     next.settings.estimator.seed = 5;

@@ -13,7 +13,7 @@
 #include <imgui_internal.h>
 
 #include "render/presets.h"
-#include "scene/builtin.h"
+#include "session/builtin.h"
 #include "view/inspector_panel.h"
 
 namespace lavalight::test {

@@ -24,7 +24,9 @@ class ShaderWatcherTest : public testing::Test {
         watcher_ = std::make_unique<ShaderWatcher>(
             folder_.path().string(), std::make_shared<ShaderOverlay>(folder_.path()), Kernels::fused, [] {});
     }
-    void save(const std::string& text) const { std::ofstream(folder_ / "lib/roulette.glsl") << text; }
+    void save(const std::string& text) const {
+        std::ofstream(folder_ / "lib/sampling/roulette.glsl") << text;
+    }
     [[nodiscard]] std::string capped(const std::string& value) const {
         const std::string line = "kMaxSurvival = 0.95";
         std::string text = ours_;
@@ -39,7 +41,7 @@ class ShaderWatcherTest : public testing::Test {
     }
 
     const test::TemporaryFolder folder_;
-    const std::string ours_{*embeddedShader("lib/roulette.glsl")};
+    const std::string ours_{*embeddedShader("lib/sampling/roulette.glsl")};
     std::unique_ptr<ShaderWatcher> watcher_;
 };
 
@@ -48,7 +50,7 @@ TEST_F(ShaderWatcherTest, BringsTheKernelsThatASaveChanges) {
     save(capped("0.5"));
     const ShaderWatcher::Change change = next();
     EXPECT_EQ(change.error, "");
-    EXPECT_EQ(change.files, std::vector<std::string>{"lib/roulette.glsl"});
+    EXPECT_EQ(change.files, std::vector<std::string>{"lib/sampling/roulette.glsl"});
     EXPECT_EQ(change.kernels, std::vector<std::string>{"path"});
     ASSERT_NE(change.overlay, nullptr);
     EXPECT_NE(change.overlay->kernel("path").content, ShaderOverlay(folder_ / "lib").kernel("path").content);
@@ -61,7 +63,7 @@ TEST_F(ShaderWatcherTest, BringsTheKernelsThatASaveChanges) {
 TEST_F(ShaderWatcherTest, TellsWhatDoesNotCompileAndGoesOnFromTheLastThatDid) {
     save(capped(";"));
     const ShaderWatcher::Change broken = next();
-    EXPECT_NE(broken.error.find("lib/roulette.glsl:"), std::string::npos) << broken.error;
+    EXPECT_NE(broken.error.find("lib/sampling/roulette.glsl:"), std::string::npos) << broken.error;
     EXPECT_EQ(broken.overlay, nullptr);
     save(ours_);
     EXPECT_TRUE(next().kernels.empty()) << "it is what it was before the error";

@@ -1,0 +1,45 @@
+#include "cli/commands/merge_command.h"
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "base/log.h"
+#include "film/film_merge.h"
+
+namespace lavalight {
+
+MergeCommand::MergeCommand(CLI::App& app)
+    : Command(app, "merge",
+              "Join renders of disjoint --samples A:B ranges: the bits of one render of all samples") {
+    parser()
+        .add_option("parts", parts_, "Images of render --samples, of merge, or finished checkpoints")
+        ->type_name("PART.exr")
+        ->default_str("")
+        ->required();
+    parser()
+        .add_option("-o,--output", output_, "EXR file; it can be merged again")
+        ->type_name("OUT.exr")
+        ->required();
+}
+
+int MergeCommand::run() {
+    if (parts_.size() < 2)
+        throw UsageError("merge: one image has nothing to be joined with; give two or more");
+    requireWritable(output_);
+    NamedFilm sum{parts_.front(), readFilmFile(parts_.front())};
+    for (size_t i = 1; i < parts_.size(); ++i) {
+        join(sum, {parts_[i], readFilmFile(parts_[i])});
+        sum.name = fmt::format("{} to {}", parts_.front(), parts_[i]);
+    }
+    const SampleRanges& ranges = sum.file.ranges;
+    if (ranges.size() > 1)
+        spdlog::warn("the samples {} leave gaps: {} holds what there is", textOf(ranges), output_);
+    writeFilmFile(output_, sum.file);
+    fmt::print("{}: {}x{}, samples {} of {} files, bias ledger: {}\n", output_, sum.file.film.width,
+               sum.file.film.height, textOf(ranges), parts_.size(),
+               valueOf(sum.file.metadata, "bias-ledger"));
+    return 0;
+}
+
+} // namespace lavalight

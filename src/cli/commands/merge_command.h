@@ -1,0 +1,21 @@
+// `lavalight merge`: parts of an image in, the image out.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli/command.h"
+
+namespace lavalight {
+
+class MergeCommand : public Command {
+  public:
+    explicit MergeCommand(CLI::App& app);
+    [[nodiscard]] int run() override;
+
+  private:
+    std::vector<std::string> parts_;
+    std::string output_;
+};
+
+} // namespace lavalight

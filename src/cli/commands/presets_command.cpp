@@ -1,0 +1,15 @@
+#include "cli/commands/presets_command.h"
+
+#include <fmt/format.h>
+
+#include "render/presets.h"
+
+namespace lavalight {
+
+int PresetsCommand::run() {
+    for (const Preset& preset : presets())
+        fmt::print("{:<10} {}\n{:<10} {}\n", preset.name, preset.meaning, "", preset.sets);
+    return 0;
+}
+
+} // namespace lavalight

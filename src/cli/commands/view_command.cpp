@@ -1,0 +1,68 @@
+#include "cli/commands/view_command.h"
+
+#include <filesystem>
+#include <limits>
+#include <memory>
+
+#include "base/error.h"
+#include "base/log.h"
+#include "base/os/memory.h"
+#include "cli/options/environment_options.h"
+#include "gpu/vulkan_error.h"
+#include "view/viewer.h"
+
+namespace lavalight {
+namespace {
+
+// Slots of a wave: one takes some 40 ms on lavapipe, and makes an image that is looked at wait no longer.
+constexpr uint32_t kWaveSize = 1u << 16;
+
+} // namespace
+
+ViewCommand::ViewCommand(CLI::App& app)
+    : Command(app, "view", "Show a scene in a window while it is rendered"), options_(parser()),
+      sceneOptions_(parser()), shaders_(parser()), tone_(parser()) {
+    shaders_.declareWatch(parser());
+    parser().add_flag("--no-watch", isNotWatching_,
+                      "Do not watch shaders, which is done where --shaders or ./shaders is there");
+    parser().add_option("scene", scene_, "Built-in scene, or .gltf or .glb file")->type_name("SCENE");
+}
+
+// Without --spp, until the window is closed.
+RenderSettings ViewCommand::settings() {
+    RenderSettings settings = options_.settings();
+    if (settings.seconds > 0.0 || settings.targetError > 0.0)
+        throw UsageError("--time and --target-error: a window renders until it is closed, or to --spp");
+    if (parser().count("--spp") == 0)
+        settings.samples = std::numeric_limits<int32_t>::max();
+    if (settings.waveSize == 0)
+        settings.waveSize = kWaveSize;
+    return settings;
+}
+
+int ViewCommand::run() {
+    keepHeapSmall();
+    RenderSettings settings = this->settings();
+    if (!isNotWatching_)
+        shaders_.watchIfThere();
+    const std::shared_ptr<ShaderOverlay> overlay = shaders_.overlay();
+    const ImportOptions import = sceneOptions_.importOptions();
+    auto scene = std::make_shared<const Scene>(loadLit(scene_, import, settings));
+    for (const std::string& warning : scene->warnings)
+        spdlog::warn("{}", warning);
+    const Camera camera = options_.cameraOf(*scene);
+    settings = resolveSize(settings, camera);
+    checkSettings(settings);
+    ViewState view{
+        scene_,   import,          scene, CameraRig(camera, scene->bounds), camera, settings.cameraOptions,
+        settings, tone_.settings()};
+    const auto load = [](const SceneOrder& order) {
+        return loadLit(order.source, order.import, order.settings);
+    };
+    ViewerConfig config{std::move(view), options_.device(), load, overlay,
+                        shaders_.isWatching() ? shaders_.folder() : std::string()};
+    gpu::checked("draw", "the window", [&] { Viewer(std::move(config)).run(); });
+    return 0;
+}
+
+} // namespace lavalight

@@ -1,0 +1,30 @@
+// `lavalight view`: the window.
+#pragma once
+
+#include <string>
+
+#include "cli/command.h"
+#include "cli/options/render_options.h"
+#include "cli/options/scene_options.h"
+#include "cli/options/shader_options.h"
+#include "cli/options/tone_options.h"
+
+namespace lavalight {
+
+class ViewCommand : public Command {
+  public:
+    explicit ViewCommand(CLI::App& app);
+    [[nodiscard]] int run() override;
+
+  private:
+    [[nodiscard]] RenderSettings settings();
+
+    RenderOptions options_;
+    SceneOptions sceneOptions_;
+    ShaderOptions shaders_;
+    ToneOptions tone_;
+    std::string scene_ = "cornell-box";
+    bool isNotWatching_ = false;
+};
+
+} // namespace lavalight

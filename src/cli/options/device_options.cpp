@@ -1,0 +1,35 @@
+#include "cli/options/device_options.h"
+
+#include <map>
+#include <string>
+
+#include "base/error.h"
+#include "cli/options/named_option.h"
+
+namespace lavalight {
+
+DeviceOptions::DeviceOptions(CLI::App& parser) {
+    parser.add_option("--device", config_.wanted, "Vulkan device by name or index (see lavalight devices)")
+        ->type_name("NAME|INDEX");
+    const std::map<std::string, gpu::RequiredDevice> kinds{{"any", gpu::RequiredDevice::any},
+                                                           {"cpu", gpu::RequiredDevice::cpu},
+                                                           {"gpu", gpu::RequiredDevice::gpu}};
+    parser.add_option("--require-device", config_.required, "Refuse to run on another kind of device")
+        ->type_name("any|cpu|gpu")
+        ->transform(oneOf(kinds))
+        ->default_str("any");
+    parser.add_flag("--validate", config_.validate,
+                    "Run the Vulkan validation layer; any message fails the run");
+    parser
+        .add_option("--kernel-timeout", config_.kernelTimeout,
+                    "Give up where a kernel has not come back after so many seconds; 0: wait for ever")
+        ->type_name("SECONDS");
+}
+
+gpu::DeviceConfig DeviceOptions::config() const {
+    if (!(config_.kernelTimeout >= 0.0)) // NaN is not
+        throw UsageError("--kernel-timeout is a number of seconds, 0 or more");
+    return config_;
+}
+
+} // namespace lavalight

@@ -1,0 +1,81 @@
+#include "cli/options/environment_options.h"
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+#include <glm/glm.hpp>
+
+#include "base/error.h"
+#include "cli/options/option_values.h"
+#include "image/environment_file.h"
+#include "session/builtin.h"
+
+namespace lavalight {
+namespace {
+
+bool isMapName(const std::string& text) {
+    const std::string extension = CLI::detail::to_lower(std::filesystem::path(text).extension().string());
+    constexpr std::array<const char*, 3> kExtensions{".hdr", ".exr", ".pic"};
+    return std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end() ||
+           std::filesystem::exists(text);
+}
+
+void readEnvironmentMap(const RenderSettings& settings, Scene& scene) {
+    if (settings.environmentFile.empty())
+        return;
+    EnvironmentFile file = readEnvironmentFile(settings.environmentFile);
+    if (file.badTexels > 0)
+        scene.warnings.push_back(
+            fmt::format("{}: {} of {} pixels had negative, infinite or undefined values, "
+                        "which were set to 0",
+                        settings.environmentFile, file.badTexels, file.image.pixels.size()));
+    scene.environmentMap = {settings.environmentFile, std::move(file.image), file.badTexels};
+}
+
+} // namespace
+
+EnvironmentOptions::EnvironmentOptions(CLI::App& parser) : parser_(&parser) {
+    parser
+        .add_option(
+            "--env", environment_,
+            "Environment that replaces the scene's: a .hdr or .exr map (its middle looks along +X, its "
+            "right half towards +Z, its top along +Y), or constant radiance")
+        ->type_name("FILE|R,G,B");
+    parser
+        .add_option("--env-rotation", rotation_,
+                    "Turns the map about +Y, counter-clockwise as seen from above (from +X to -Z)")
+        ->type_name("DEGREES");
+    parser.add_option("--env-intensity", intensity_, "Multiplies the environment, whatever it is")
+        ->type_name("X");
+}
+
+void EnvironmentOptions::applyTo(RenderSettings& settings) const {
+    settings.environmentRotation = rotation_;
+    settings.environmentIntensity = intensity_;
+    if (const std::optional<glm::vec3> radiance = parseVector(environment_)) {
+        if (glm::any(glm::lessThan(*radiance, glm::vec3(0.0f))))
+            throw UsageError(fmt::format("--env: a radiance in \"{}\" is below 0", environment_));
+        settings.environment = radiance;
+    } else if (isMapName(environment_)) {
+        settings.environmentFile = environment_;
+    } else if (parser_->count("--env") > 0) {
+        throw UsageError(
+            fmt::format("--env: \"{}\" is neither R,G,B with three radiances of 0 or more nor the "
+                        "name of a .hdr or .exr file",
+                        environment_));
+    }
+    if (parser_->count("--env-rotation") > 0 && settings.environmentFile.empty())
+        throw UsageError("--env-rotation: there is no map to turn; give one with --env FILE");
+}
+
+Scene loadLit(const std::string& nameOrPath, ImportOptions options, const RenderSettings& settings) {
+    options.bringsLight = settings.environment.has_value() || !settings.environmentFile.empty();
+    Scene scene = loadScene(nameOrPath, options);
+    readEnvironmentMap(settings, scene);
+    return scene;
+}
+
+} // namespace lavalight

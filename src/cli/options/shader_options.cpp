@@ -1,0 +1,78 @@
+#include "cli/options/shader_options.h"
+
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "base/error.h"
+#include "base/log.h"
+
+namespace lavalight {
+namespace {
+
+constexpr const char* kOwnFolder = "shaders"; // of the source tree
+
+bool isInSourceTree() {
+    return std::filesystem::is_regular_file(std::filesystem::path(kOwnFolder) / "kernels/path.comp");
+}
+
+} // namespace
+
+ShaderOptions::ShaderOptions(CLI::App& parser) {
+    parser
+        .add_option("--shaders", folder_,
+                    "Folder of shader files that stand in for those of the same path (see new-experiment)")
+        ->type_name("DIR");
+}
+
+void ShaderOptions::declareWatch(CLI::App& parser) {
+    parser.add_flag("--watch", isWatching_,
+                    "Render again whenever a file of --shaders (default: ./shaders) is saved, until Ctrl-C");
+}
+
+void ShaderOptions::watchIfThere() {
+    isWatching_ = isWatching_ || !folder_.empty() || isInSourceTree();
+}
+
+std::string ShaderOptions::folder() const {
+    if (!folder_.empty() || !isWatching_)
+        return folder_;
+    if (!isInSourceTree())
+        throw UsageError("--watch: there is no folder of shaders here; give --shaders DIR (lavalight "
+                         "new-experiment makes one)");
+    return kOwnFolder;
+}
+
+std::shared_ptr<ShaderOverlay> ShaderOptions::overlay() const {
+    const std::string where = folder();
+    if (where.empty())
+        return nullptr;
+    auto overlay = std::make_shared<ShaderOverlay>(where);
+    for (const std::string& path : overlay->unused())
+        spdlog::warn("{}/{}: no kernel includes a file of that path", where, path);
+    return overlay;
+}
+
+std::shared_ptr<ShaderOverlay> ShaderOptions::reread(const std::vector<std::string>& changes,
+                                                     const Renderer& renderer,
+                                                     const ToneMapper* toneMapper) const {
+    spdlog::info("saved: {}", fmt::join(changes, ", "));
+    try {
+        std::shared_ptr<ShaderOverlay> now = overlay();
+        const KernelSource source = sourceOf(now);
+        std::vector<std::string> names = renderer.changedKernels(source);
+        if (toneMapper != nullptr && toneMapper->isChanged(source))
+            names.emplace_back("tonemap");
+        if (!names.empty()) {
+            spdlog::info("changed: {}", fmt::join(names, ", "));
+            return now;
+        }
+        spdlog::info("no kernel has changed");
+    } catch (const Error& error) {
+        spdlog::error("{}\nthe kernels from before go on", error.what());
+    }
+    return nullptr;
+}
+
+} // namespace lavalight

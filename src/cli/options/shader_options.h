@@ -1,0 +1,47 @@
+// Shaders that the user changed, and watching them change.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "kernels/shader_overlay.h"
+#include "render/renderer.h"
+#include "render/tone_mapper.h"
+
+namespace lavalight {
+
+// Declares --shaders. Must outlive the parsing; the parser points into it.
+class ShaderOptions {
+  public:
+    explicit ShaderOptions(CLI::App& parser);
+    ShaderOptions(const ShaderOptions&) = delete;
+    ShaderOptions& operator=(const ShaderOptions&) = delete;
+
+    // --watch too.
+    void declareWatch(CLI::App& parser);
+
+    // As if --watch was given, where there is a folder to watch.
+    void watchIfThere();
+    [[nodiscard]] bool isWatching() const { return isWatching_; }
+    // --shaders, or, to watch, the source tree's own where that is the working folder. Throws UsageError
+    // where there is neither.
+    [[nodiscard]] std::string folder() const;
+    // The folder as it is now; null where none was asked for. Warns of files that nothing includes. Throws as
+    // ShaderOverlay does.
+    [[nodiscard]] std::shared_ptr<ShaderOverlay> overlay() const;
+
+    // The folder once the files `changes` are saved; null unless they give the renderer, or the tone mapper
+    // if there is one, other kernels. Tells on stderr what changed, and what does not compile.
+    [[nodiscard]] std::shared_ptr<ShaderOverlay> reread(const std::vector<std::string>& changes,
+                                                        const Renderer& renderer,
+                                                        const ToneMapper* toneMapper = nullptr) const;
+
+  private:
+    std::string folder_;
+    bool isWatching_ = false;
+};
+
+} // namespace lavalight

@@ -1,0 +1,184 @@
+#include "compare/comparison.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "image/picture.h"
+#include "image/texel.h"
+
+namespace lavalight {
+namespace {
+
+bool isPicture(std::string_view bytes) {
+    constexpr std::string_view kPng = "\x89PNG";
+    return bytes.starts_with(kPng);
+}
+
+Image linearImage(const Picture& picture) {
+    Image image(picture.width, picture.height);
+    for (uint32_t y = 0; y < picture.height; ++y)
+        for (uint32_t x = 0; x < picture.width; ++x)
+            image.pixels[size_t{y} * picture.width + x] = glm::vec3(texelOf(picture, x, y, true));
+    return image;
+}
+
+Image readPicture(const std::string& path, std::string_view bytes) {
+    try {
+        return linearImage(decodePicture(bytes));
+    } catch (const Error& error) {
+        throw Error(fmt::format("cannot read {}: {}", path, error.what()));
+    }
+}
+
+Estimate estimateOf(const ExrFile& file) {
+    Estimate estimate{&file.radiance, nullptr, {}};
+    if (file.variance)
+        estimate.variance = &*file.variance;
+    if (file.sampleCounts)
+        estimate.sampleCounts = *file.sampleCounts;
+    return estimate;
+}
+
+std::optional<ZTests> testNoise(const ExrFile& image, const ExrFile& reference) {
+    if (!image.variance && !reference.variance)
+        return std::nullopt;
+    const uint32_t whole = std::max(image.radiance.width, image.radiance.height);
+    const auto test = [&](uint32_t tileSize) {
+        return welchTest(estimateOf(image), estimateOf(reference), tileSize);
+    };
+    const char* of = !reference.variance ? "image" : !image.variance ? "reference" : "both";
+    return ZTests{of,
+                  {{{"each pixel", "pixels", 1, test(1)},
+                    {"16 x 16 pixels", "tiles", kZTileSize, test(kZTileSize)},
+                    {"whole image", "whole", whole, test(whole)}}}};
+}
+
+void requireComparable(const ComparedImage& image, const ComparedImage& reference) {
+    const Image& a = image.content.radiance;
+    const Image& b = reference.content.radiance;
+    if (image.isDisplayed != reference.isDisplayed)
+        throw Error(
+            fmt::format("cannot compare {} with {}: one holds radiance, the other what a display shows of it",
+                        image.name, reference.name));
+    if (a.width != b.width || a.height != b.height)
+        throw Error(fmt::format("cannot compare images of different sizes, {} x {} and {} x {}", a.width,
+                                a.height, b.width, b.height));
+    if (const uint64_t count = countNonFinite(b); count > 0)
+        throw Error(fmt::format("the reference {} has {} pixels that are NaN or infinite: make it anew",
+                                reference.name, count));
+}
+
+std::string pixelText(size_t index, uint32_t width) {
+    return fmt::format("pixel {}, {}", index % width, index / width);
+}
+
+Verdict finiteVerdict(const Comparison& c, const Image& image) {
+    Verdict verdict{"finite", static_cast<double>(c.nonFiniteImage), 0.0, c.nonFiniteImage == 0, ""};
+    const auto found = std::find_if(image.pixels.begin(), image.pixels.end(), [](const glm::vec3& p) {
+        return !std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z);
+    });
+    if (found != image.pixels.end())
+        verdict.where = pixelText(static_cast<size_t>(found - image.pixels.begin()), c.width);
+    return verdict;
+}
+
+Verdict relMseVerdict(const Comparison& c, double limit, const Image& image, const Image& reference) {
+    return {"relMSE", c.relMse, limit, c.relMse <= limit, // NaN is not
+            pixelText(worstOfRelMse(image, reference), c.width)};
+}
+
+Verdict flipVerdict(const Comparison& c, double limit) {
+    const double mean = c.flip.mean();
+    const size_t worst = c.flip.worst();
+    return {"FLIP", mean, limit, mean <= limit,
+            fmt::format("{} with {:.3f}", pixelText(worst, c.width), c.flip.errors[worst])};
+}
+
+Verdict zVerdict(const ZTests& tests, double significance) {
+    const ZTestLevel& level = tests.worst();
+    const WelchTest& test = level.test;
+    const std::string size = level.tileSize == 1 ? "" : fmt::format("{} from ", level.name);
+    const std::string place = level.tileSize > kZTileSize
+                                  ? level.name
+                                  : fmt::format("{}pixel {}, {}", size, test.worstTile.x, test.worstTile.y);
+    return {"Z-test", tests.p(), significance, tests.p() >= significance,
+            fmt::format("{} in {}: |z| {:.2f}", place, kChannelNames[test.worstChannel], test.worstAbsZ)};
+}
+
+Criteria completed(Criteria criteria, const ComparedImage& image, const ComparedImage& reference) {
+    if (criteria.relMse || criteria.flip || criteria.significance)
+        return criteria;
+    if (image.content.variance && reference.content.variance)
+        criteria.significance = kDefaultSignificance;
+    else
+        criteria.relMse = kDefaultRelMse;
+    return criteria;
+}
+
+std::vector<Verdict> judge(const Comparison& c, const Criteria& criteria, const Image& image,
+                           const Image& reference) {
+    std::vector<Verdict> verdicts{finiteVerdict(c, image)};
+    if (criteria.significance) {
+        if (!c.zTests)
+            throw Error(
+                "no Z-test: neither image has variances; compare EXR files of lavalight render, or give "
+                "--threshold or --flip-threshold");
+        verdicts.push_back(zVerdict(*c.zTests, *criteria.significance));
+    }
+    if (criteria.relMse)
+        verdicts.push_back(relMseVerdict(c, *criteria.relMse, image, reference));
+    if (criteria.flip)
+        verdicts.push_back(flipVerdict(c, *criteria.flip));
+    return verdicts;
+}
+
+} // namespace
+
+ComparedImage readCompared(const std::string& path) {
+    const std::string bytes = readFile(path);
+    if (!isPicture(bytes))
+        return {path, readExr(path), false};
+    ComparedImage image{path, {}, true};
+    image.content.radiance = readPicture(path, bytes);
+    return image;
+}
+
+double ZTests::p() const {
+    return std::min(1.0, worst().test.p * static_cast<double>(levels.size()));
+}
+
+const ZTestLevel& ZTests::worst() const {
+    return *std::min_element(levels.begin(), levels.end(), [](const ZTestLevel& a, const ZTestLevel& b) {
+        return std::pair(a.test.p, -a.test.worstAbsZ) < std::pair(b.test.p, -b.test.worstAbsZ);
+    });
+}
+
+bool Comparison::isEqual() const {
+    return std::all_of(verdicts.begin(), verdicts.end(), [](const Verdict& v) { return v.passed; });
+}
+
+Comparison compare(const ComparedImage& image, const ComparedImage& reference, const Criteria& criteria) {
+    requireComparable(image, reference);
+    const Image& a = image.content.radiance;
+    const Image& b = reference.content.radiance;
+    Comparison result;
+    result.width = a.width;
+    result.height = a.height;
+    result.rmse = rmse(a, b);
+    result.relMse = relMse(a, b);
+    result.trimmedRelMse = trimmedRelMse(a, b);
+    result.meanDifference = relativeMeanDifference(a, b);
+    result.nonFiniteImage = countNonFinite(a);
+    result.isHdrFlip = !image.isDisplayed;
+    result.flip = result.isHdrFlip ? flipOfRadiance(a, b) : flip(a, b);
+    result.zTests = testNoise(image.content, reference.content);
+    result.verdicts = judge(result, completed(criteria, image, reference), a, b);
+    return result;
+}
+
+} // namespace lavalight

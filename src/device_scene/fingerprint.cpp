@@ -1,0 +1,33 @@
+#include "device_scene/fingerprint.h"
+
+#include <span>
+
+#include "base/content_hash.h"
+
+namespace lavalight {
+namespace {
+
+template <typename... Records>
+std::string hashOfAll(const std::vector<Records>&... records) {
+    ContentHash hash;
+    (hash.add(records), ...);
+    return hash.text();
+}
+
+} // namespace
+
+Fingerprints fingerprintsOf(const SceneData& scene) {
+    // A member that is added must find its place below.
+    const auto& [bvh, leafTriangles, normals, materials, lights, punctuals, lightTree, textures, uvs, colors,
+                 tangents, environmentMap, environmentQuads, features] = scene;
+    const auto& [pictures, textureRecords, firstRecords] = textures;
+    return {
+        {"geometry", hashOfAll(bvh.nodes, leafTriangles, normals, uvs, colors, tangents)},
+        {"materials", hashOfAll(materials, std::vector{features})},
+        {"textures", hashOfAll(pictures, textureRecords, firstRecords)},
+        {"lights", hashOfAll(lights, punctuals, lightTree)},
+        {"environment map", hashOfAll(environmentMap, environmentQuads)},
+    };
+}
+
+} // namespace lavalight

@@ -1,0 +1,184 @@
+#include "device_scene/scene_data.h"
+
+#include <span>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "accel/triangle.h"
+#include "base/error.h"
+#include "base/os/memory.h"
+#include "device_scene/gpu_lights.h"
+#include "device_scene/octahedral.h"
+#include "device_scene/scene_features.h"
+#include "scene/coverage.h"
+
+namespace lavalight {
+namespace {
+
+uint32_t materialWord(const Mesh& mesh, const Material& material, bool isTransparent) {
+    uint32_t word = mesh.material;
+    if (isTransparent)
+        word |= kAlphaBit;
+    if (mesh.normals.empty())
+        word |= kFlatBit;
+    if (material.doubleSided || (material.isSolid && material.transmission > 0.0f))
+        word |= kNeverCulledBit; // the far side of a glass body is part of what is seen through it
+    return word;
+}
+
+// Material word of every triangle, in the scene's numbering.
+std::vector<uint32_t> materialWords(const Scene& scene) {
+    std::vector<uint32_t> words;
+    words.reserve(scene.triangleCount());
+    const std::vector<bool> transparent = transparentMeshes(scene);
+    for (size_t i = 0; i < scene.meshes.size(); ++i) {
+        const Mesh& mesh = scene.meshes[i];
+        words.insert(words.end(), mesh.triangles.size(),
+                     materialWord(mesh, scene.materials[mesh.material], transparent[i]));
+    }
+    return words;
+}
+
+std::vector<LeafTriangle> packLeafTriangles(const Bvh& bvh, std::span<const Triangle> triangles,
+                                            const Emitters& emitters, std::span<const uint32_t> materials) {
+    std::vector<LeafTriangle> packed;
+    packed.reserve(bvh.leafTriangles.size());
+    for (const uint32_t id : bvh.leafTriangles) {
+        const Triangle& t = triangles[id];
+        packed.push_back({t.v0, id, t.v1, emitters.emitterOfTriangle[id], t.v2, materials[id]});
+    }
+    return packed;
+}
+
+std::vector<TriangleNormals> packNormals(const Scene& scene) {
+    std::vector<TriangleNormals> packed;
+    packed.reserve(scene.triangleCount());
+    for (size_t i = 0; i < scene.meshes.size(); ++i) {
+        const Mesh& mesh = scene.meshes[i];
+        const bool isSolid = boundsSolid(scene.materials[mesh.material]);
+        const uint32_t solid = isSolid ? static_cast<uint32_t>(i + 1) : 0u;
+        for (const glm::uvec3& t : mesh.triangles)
+            packed.push_back(mesh.normals.empty()
+                                 ? TriangleNormals{0, 0, 0, solid}
+                                 : TriangleNormals{encodeOctahedral(mesh.normals[t.x]),
+                                                   encodeOctahedral(mesh.normals[t.y]),
+                                                   encodeOctahedral(mesh.normals[t.z]), solid});
+    }
+    return packed;
+}
+
+uint32_t materialFlags(const Material& material) {
+    return (material.doubleSided ? kMaterialDoubleSided : 0u) | (material.isSolid ? kMaterialSolid : 0u) |
+           (material.isUnlit ? kMaterialUnlit : 0u) | (material.isGlossiness ? kMaterialGlossiness : 0u);
+}
+
+// Per metre: what is left after attenuationDistance is attenuationColor. A channel of 0 is as good as black
+// after 1/50 of it.
+glm::vec3 absorption(const Material& material) {
+    constexpr float kDarkest = 1e-20f;
+    return -glm::log(glm::max(material.attenuationColor, glm::vec3(kDarkest))) / material.attenuationDistance;
+}
+
+MaterialRecord packMaterial(const Material& m) {
+    MaterialRecord r{};
+    r.baseColor = m.baseColor;
+    r.metallic = m.metallic;
+    r.emission = m.emission;
+    r.roughness = m.roughness;
+    r.specularColor = m.specularColor;
+    r.specular = m.specular;
+    r.ior = m.ior;
+    r.transmission = m.transmission;
+    r.flags = materialFlags(m);
+    r.alpha = m.alpha;
+    r.alphaCutoff = m.alphaMode == AlphaMode::mask ? m.alphaCutoff : -1.0f;
+    r.normalScale = m.normalScale;
+    r.attenuation = absorption(m);
+    r.dispersion = m.dispersion;
+    r.clearcoat = m.clearcoat;
+    r.clearcoatRoughness = m.clearcoatRoughness;
+    r.clearcoatNormalScale = m.clearcoatNormalScale;
+    r.anisotropy = m.anisotropy;
+    r.sheenColor = m.sheenColor;
+    r.sheenRoughness = m.sheenRoughness;
+    r.anisotropyRotation = m.anisotropyRotation;
+    r.iridescence = m.iridescence;
+    r.iridescenceIor = m.iridescenceIor;
+    r.iridescenceThicknessMinimum = m.iridescenceThicknessMinimum;
+    r.iridescenceThicknessMaximum = m.iridescenceThicknessMaximum;
+    r.diffuseTransmission = m.diffuseTransmission;
+    r.diffuseTransmissionColor = m.diffuseTransmissionColor;
+    return r;
+}
+
+// firstTextures: per material; empty: no textures are looked up.
+std::vector<MaterialRecord> packMaterials(const Scene& scene, std::span<const uint32_t> firstTextures) {
+    std::vector<MaterialRecord> packed;
+    for (const Material& material : scene.materials)
+        packed.push_back(packMaterial(material));
+    for (size_t i = 0; i < firstTextures.size(); ++i) {
+        packed[i].textureSlots = textureSlots(scene.materials[i]);
+        packed[i].firstTexture = firstTextures[i];
+    }
+    return packed;
+}
+
+void packSurfaceDetail(const Scene& scene, SceneData& data) {
+    if ((data.features & kFeatureTextures) != 0) {
+        data.textures = packTextures(scene);
+        data.uvs = packUvs(scene);
+    }
+    if ((data.features & kFeatureVertexColors) != 0)
+        data.colors = packColors(scene);
+    if ((data.features & kFeatureTangents) != 0)
+        data.tangents = packTangents(scene);
+}
+
+// Of each cell its scale, and the texel at its lower right corner: the last row is there twice.
+std::vector<glm::vec4> packEnvironmentMap(const Image& map, std::span<const float> scales) {
+    std::vector<glm::vec4> packed;
+    packed.reserve(scales.size());
+    for (size_t i = 0; i < scales.size(); ++i)
+        packed.emplace_back(map.pixels[i < map.pixels.size() ? i : i - map.width], scales[i]);
+    return packed;
+}
+
+// Linux kills a process that takes what it was granted and there is not.
+void requireMemoryForTriangles(const Scene& scene) {
+    // Of a triangle, with its BVH's workspace, at the peak: measured 500 (7.66 million triangles of
+    // TeapotsGalore) and 570 (dense-3000000).
+    constexpr uint64_t kBytesPerTriangle = 512;
+    const uint64_t triangles = scene.triangleCount();
+    if (const std::string shortage = memoryShortage(kBytesPerTriangle * triangles); !shortage.empty())
+        throw Error(fmt::format("cannot prepare {}: its {} triangles {}: simplify the scene", scene.source,
+                                triangles, shortage));
+}
+
+} // namespace
+
+SceneData packScene(const Scene& scene, const Lights& lights) {
+    requireMemoryForTriangles(scene);
+    const std::vector<Triangle> triangles = sceneTriangles(scene);
+    SceneData data;
+    data.features = sceneFeatures(scene, lights);
+    packSurfaceDetail(scene, data);
+    data.bvh = buildBvh(triangles);
+    data.leafTriangles = packLeafTriangles(data.bvh, triangles, lights.emitters, materialWords(scene));
+    data.normals = packNormals(scene);
+    data.materials = packMaterials(scene, data.textures.firstRecords);
+    data.lights = packLights(lights, data.bvh);
+    data.punctuals = packPunctuals(scene, lights);
+    data.lightTree = packLightTree(lights.tree, scene.bounds.radius());
+    if (lights.environmentMap) {
+        data.environmentMap = packEnvironmentMap(scene.environmentMap->image, lights.environmentMap->scales);
+        data.environmentQuads = lights.environmentMap->quads;
+    }
+    return data;
+}
+
+SceneData packScene(const Scene& scene) {
+    return packScene(scene, collectLights(scene, scene.environment, LightSelection::power));
+}
+
+} // namespace lavalight

@@ -1,0 +1,35 @@
+#include "film/bias_ledger.h"
+
+#include <fmt/format.h>
+
+namespace lavalight {
+
+std::vector<LedgerEntry> tallyEntries(const FilmTallies& tallies) {
+    std::vector<LedgerEntry> ledger;
+    if (tallies.cutPaths > 0)
+        ledger.push_back({"cut-paths", fmt::format("{} paths ended by --max-bounces, mean throughput {:.4g}",
+                                                   tallies.cutPaths, tallies.cutThroughput)});
+    if (tallies.overlaps > 0)
+        ledger.push_back(
+            {"overlapping-solids",
+             fmt::format("{} paths were within two solids at once, where neither medium is right",
+                         tallies.overlaps)});
+    if (tallies.droppedSamples > 0)
+        ledger.push_back(
+            {"dropped-samples", fmt::format("{} samples were not finite", tallies.droppedSamples)});
+    if (tallies.saturatedSums > 0)
+        ledger.push_back(
+            {"saturated-sums", fmt::format("{} sums left the film's range", tallies.saturatedSums)});
+    return ledger;
+}
+
+std::string ledgerText(const std::vector<LedgerEntry>& ledger) {
+    if (ledger.empty())
+        return "none";
+    std::string text;
+    for (const LedgerEntry& entry : ledger)
+        text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", entry.cause, entry.detail);
+    return text;
+}
+
+} // namespace lavalight

@@ -1,0 +1,41 @@
+// Images that can be continued and joined: EXR files that hold the exact film beside the picture, and all
+// that decides its bits in their header. Parts of --samples, results of merge and checkpoints are all such
+// files.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+
+#include "film/raw_film.h"
+#include "film/sample_ranges.h"
+#include "image/exr.h"
+
+namespace lavalight {
+
+struct FilmFile {
+    RawFilm film;
+    SampleRanges ranges; // that it is to hold, or holds
+    FilmProgress progress;
+    Metadata metadata; // of exrMetadata(), and kSettingsLedger
+
+    [[nodiscard]] bool isComplete() const { return progress == FilmProgress{countOf(ranges), 0, 0}; }
+};
+
+// The bias ledger without what tallies say.
+inline constexpr const char* kSettingsLedger = "film:settings-ledger";
+
+// The channels of writeExr, and those of the film, 32-bit unsigned:
+//   raw.R.sum.0 1 2       sum of the samples' L, words from the lowest, the lowest bit worth 2^-48
+//   raw.R.square.0 1 2 3  sum of their L^2, the lowest bit worth 2^-64
+// and so for G and B. A hash of the film and the header makes damage known. Throws Error.
+void writeFilmFile(const std::filesystem::path& path, const FilmFile& file);
+
+// Throws Error for whatever is no such file, or was damaged.
+[[nodiscard]] FilmFile readFilmFile(const std::filesystem::path& path);
+
+// Value of a key, or empty.
+[[nodiscard]] std::string valueOf(const Metadata& metadata, const std::string& key);
+// Replaces the key's value, or adds it.
+void setValue(Metadata& metadata, const std::string& key, const std::string& value);
+
+} // namespace lavalight

@@ -1,0 +1,22 @@
+// Joins films of one image whose samples are others.
+#pragma once
+
+#include <string>
+
+#include "film/film_file.h"
+
+namespace lavalight {
+
+// A film file and its name, for messages.
+struct NamedFilm {
+    std::string name;
+    FilmFile file;
+};
+
+// Adds the samples of `part`: film, tallies and header become those of one render of all samples, but for the
+// seconds, which add up. Ranges may leave gaps between them: no estimator asks which samples there are.
+// Throws Error, naming what is in the way, where the two are of different images, have samples in common, or
+// lack some of those that they are to hold.
+void join(NamedFilm& sum, const NamedFilm& part);
+
+} // namespace lavalight

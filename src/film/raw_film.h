@@ -1,0 +1,74 @@
+// The exact sums of a film in the host's memory, where they are stored, joined, and turned into an image.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "image/image.h"
+#include "shared/film.h"
+
+namespace lavalight {
+
+// Events that the ledger reports, counted by the kernels.
+struct FilmTallies {
+    uint64_t droppedSamples = 0; // NaN or infinity
+    uint64_t saturatedSums = 0;
+    uint64_t cutPaths = 0;      // ended by --max-bounces while they carried light
+    double cutThroughput = 0.0; // mean over the cut paths
+    uint64_t overlaps = 0;      // paths within two solids at once
+    std::array<uint32_t, 2>
+        overlapping{}; // meshes of two such solids, counted from 1; 65535: there or beyond
+};
+
+// Counts as the kernels keep them, by kTally...
+using RawTallies = std::array<uint64_t, kTallyCount>;
+
+[[nodiscard]] FilmTallies readable(const RawTallies& tallies);
+
+// A whole film: equal samples leave equal words, however they were taken.
+struct RawFilm {
+    uint32_t width = 0;
+    uint32_t height = 0;
+    std::vector<uint32_t>
+        words; // kFilmWords planes in the order of shaders/shared/film.h, of all pixels each
+    RawTallies tallies{};
+
+    [[nodiscard]] size_t pixels() const { return size_t{width} * height; }
+    // Samples over all pixels.
+    [[nodiscard]] uint64_t samples() const;
+};
+
+// Text of the mean over `pixels` of `samples`, for headers.
+[[nodiscard]] std::string samplesPerPixel(uint64_t samples, uint64_t pixels);
+
+// How far the samples of a film have come. Passes take some samples of all pixels, row by row.
+struct FilmProgress {
+    uint32_t samples = 0;     // of every pixel, by the passes before
+    uint32_t passSamples = 0; // of the pass under way; 0: none is
+    uint32_t passPixels = 0;  // that have them
+    bool operator==(const FilmProgress&) const = default;
+};
+
+// Adds the samples of a film of the same size: the words are those of one film of all of them.
+void add(RawFilm& sum, const RawFilm& more);
+
+[[nodiscard]] Rendering resolve(const RawFilm& film);
+
+// Writes the pixels of `planes`, which are those from `firstPixel` on, into a rendering of the whole image.
+void resolvePixels(std::span<const uint32_t> planes, size_t firstPixel, Rendering& rendering);
+
+// Value of a fixed-point number: `words` lowest first, the lowest bit worth 2^lowestExponent.
+[[nodiscard]] double fromFixed(std::span<const uint32_t> words, int lowestExponent);
+
+struct PixelEstimate {
+    double mean = 0.0;
+    double varianceOfMean = 0.0;
+};
+
+// From the sums of `count` samples and of their squares. Fewer than two samples have no variance: 0.
+[[nodiscard]] PixelEstimate estimate(double sum, double sumOfSquares, uint32_t count);
+
+} // namespace lavalight

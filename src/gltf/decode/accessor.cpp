@@ -1,0 +1,302 @@
+// Accessors (glTF 2.0 specification, section 3.6.2).
+#include "gltf/decode/accessor.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cstring>
+
+#include <fmt/format.h>
+#include <glm/ext/vector_float1.hpp>
+
+namespace lavalight {
+namespace {
+
+// An accessor without data may ask for any number of zeros, a few bytes of a file for hours of work. Files
+// have them as the base of sparse morph targets: of as many elements as a mesh has vertices, two or three for
+// each target.
+constexpr size_t kMostZeros = size_t{1} << 24;
+constexpr size_t kMostZerosInAll = size_t{1} << 28;
+constexpr std::array<char, 64>
+    kZeros{}; // the largest element, a MAT4 of 4-byte components; read with a stride of 0
+
+// Bytes of one element, and from one to the next where they are packed.
+struct ElementLayout {
+    size_t size = 0;
+    size_t stride = 0;
+};
+
+// Columns of matrices start at multiples of four bytes, but the last has no padding (section 3.6.2.4).
+ElementLayout layoutOf(int type, size_t component) {
+    const auto matrix = [component](size_t n) {
+        const size_t column = (n * component + 3) / 4 * 4;
+        return ElementLayout{(n - 1) * column + n * component, n * column};
+    };
+    if (type == TINYGLTF_TYPE_MAT2)
+        return matrix(2);
+    if (type == TINYGLTF_TYPE_MAT3)
+        return matrix(3);
+    const size_t size =
+        component * static_cast<size_t>(tinygltf::GetNumComponentsInType(static_cast<uint32_t>(type)));
+    return {size, size};
+}
+
+size_t componentSize(int componentType) {
+    switch (componentType) {
+    case TINYGLTF_COMPONENT_TYPE_BYTE:
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+        return 1;
+    case TINYGLTF_COMPONENT_TYPE_SHORT:
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+        return 2;
+    default:
+        return 4; // the schema check admits no others
+    }
+}
+
+// A run of elements in a buffer view.
+struct Range {
+    int view = -1;
+    size_t offset = 0; // bytes into the view
+    size_t count = 0;
+    size_t elementSize = 0;
+    size_t stride = 0;
+};
+
+const GltfBuffer& bufferOf(const GltfDocument& document, int view) {
+    const int buffer = document.model.bufferViews.at(static_cast<size_t>(view)).buffer;
+    return document.buffers.at(static_cast<size_t>(buffer));
+}
+
+void requireInsideBuffer(const GltfDocument& document, int index) {
+    const tinygltf::BufferView& view = document.model.bufferViews.at(static_cast<size_t>(index));
+    const size_t size = bufferOf(document, index).byteLength;
+    if (view.byteOffset > size || view.byteLength > size - view.byteOffset)
+        throw document.error(fmt::format("{} covers {} bytes from {}, but buffer {} has {}",
+                                         describe("buffer view", static_cast<size_t>(index), view.name),
+                                         view.byteLength, view.byteOffset, view.buffer, size));
+}
+
+std::string_view bytesOfView(const GltfDocument& document, int index) {
+    const tinygltf::BufferView& view = document.model.bufferViews.at(static_cast<size_t>(index));
+    return bytesOf(document.buffers, {static_cast<size_t>(view.buffer), view.byteOffset, view.byteLength},
+                   describe("buffer view", static_cast<size_t>(index), view.name), document.source);
+}
+
+// The bytes of `range`, from its first element to the end of the view. Multiplies nothing that could
+// overflow.
+std::string_view bytesOfRange(const GltfDocument& document, const std::string& name, const Range& range) {
+    const std::string_view view = bytesOfView(document, range.view);
+    const bool fits = range.offset <= view.size() && range.elementSize <= view.size() - range.offset &&
+                      range.count - 1 <= (view.size() - range.offset - range.elementSize) / range.stride;
+    if (!fits)
+        throw document.error(fmt::format(
+            "{} needs {} elements of {} bytes, {} apart, from byte {}, but buffer view {} has {}", name,
+            range.count, range.elementSize, range.stride, range.offset, range.view, view.size()));
+    return view.substr(range.offset);
+}
+
+template <class T>
+T load(std::string_view bytes) {
+    assert(bytes.size() >= sizeof(T));
+    T value;
+    std::memcpy(&value, bytes.data(), sizeof value);
+    return value;
+}
+
+uint32_t loadUnsigned(std::string_view bytes, int componentType) {
+    switch (componentType) {
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+        return load<uint8_t>(bytes);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+        return load<uint16_t>(bytes);
+    default:
+        return load<uint32_t>(bytes);
+    }
+}
+
+// Normalized integers after section 3.11 of the specification ("c / 127, not below -1").
+float loadComponent(std::string_view bytes, int componentType, bool normalized) {
+    const auto scaled = [normalized](auto value, float largest) {
+        return normalized ? std::max(static_cast<float>(value) / largest, -1.0f) : static_cast<float>(value);
+    };
+    switch (componentType) {
+    case TINYGLTF_COMPONENT_TYPE_BYTE:
+        return scaled(load<int8_t>(bytes), 127.0f);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+        return scaled(load<uint8_t>(bytes), 255.0f);
+    case TINYGLTF_COMPONENT_TYPE_SHORT:
+        return scaled(load<int16_t>(bytes), 32767.0f);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+        return scaled(load<uint16_t>(bytes), 65535.0f);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+        return scaled(load<uint32_t>(bytes), 4294967295.0f);
+    default:
+        return load<float>(bytes);
+    }
+}
+
+bool isUnsigned(int componentType) {
+    return componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
+           componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ||
+           componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
+}
+
+// False for accessors into buffers that were declared without data. That is an error only where they are
+// read.
+bool hasData(const GltfDocument& document, const tinygltf::Accessor& accessor) {
+    const auto present = [&](int view) { return view < 0 || !bufferOf(document, view).bytes.empty(); };
+    const auto& sparse = accessor.sparse;
+    return present(accessor.bufferView) &&
+           (!sparse.isSparse || (present(sparse.indices.bufferView) && present(sparse.values.bufferView)));
+}
+
+} // namespace
+
+AccessorView::AccessorView(const GltfDocument& document, int index) {
+    const tinygltf::Accessor& accessor = document.model.accessors.at(static_cast<size_t>(index));
+    name_ = describe("accessor", static_cast<size_t>(index), accessor.name);
+    count_ = accessor.count;
+    type_ = accessor.type;
+    componentType_ = accessor.componentType;
+    normalized_ = accessor.normalized;
+    const ElementLayout layout = layoutOf(type_, componentSize(componentType_));
+    elementSize_ = layout.size;
+    packedStride_ = layout.stride;
+    if (accessor.bufferView >= 0) {
+        const auto& view = document.model.bufferViews.at(static_cast<size_t>(accessor.bufferView));
+        stride_ = view.byteStride == 0 ? packedStride_ : view.byteStride;
+        if (stride_ < elementSize_)
+            throw document.error(
+                fmt::format("{} has elements of {} bytes only {} bytes apart", name_, elementSize_, stride_));
+        const Range range{accessor.bufferView, accessor.byteOffset, count_, elementSize_, stride_};
+        bytes_ = bytesOfRange(document, name_, range);
+    } else if (count_ > kMostZeros) {
+        throw document.error(fmt::format("{} asks for {} elements without data, at most {} are supported",
+                                         name_, count_, kMostZeros));
+    } else {
+        bytes_ = std::string_view(kZeros.data(), kZeros.size());
+        stride_ = 0;
+    }
+    if (accessor.sparse.isSparse)
+        readSparse(document, accessor);
+}
+
+void AccessorView::readSparse(const GltfDocument& document, const tinygltf::Accessor& accessor) {
+    const auto& sparse = accessor.sparse;
+    replacedCount_ = static_cast<size_t>(sparse.count);
+    replacedType_ = sparse.indices.componentType;
+    if (replacedCount_ == 0 || replacedCount_ > count_ || !isUnsigned(replacedType_))
+        throw document.error(fmt::format("{} replaces {} of its {} elements, by indices of component type {}",
+                                         name_, replacedCount_, count_, replacedType_));
+    const size_t indexSize = componentSize(replacedType_);
+    replacedNumbers_ =
+        bytesOfRange(document, name_ + " (sparse indices)",
+                     {sparse.indices.bufferView, static_cast<size_t>(sparse.indices.byteOffset),
+                      replacedCount_, indexSize, indexSize});
+    replacedElements_ = bytesOfRange(document, name_ + " (sparse values)",
+                                     {sparse.values.bufferView, static_cast<size_t>(sparse.values.byteOffset),
+                                      replacedCount_, elementSize_, packedStride_});
+}
+
+uint32_t AccessorView::replacedAt(size_t number) const {
+    return loadUnsigned(replacedNumbers_.substr(number * componentSize(replacedType_)), replacedType_);
+}
+
+std::string_view AccessorView::elementAt(size_t i) const {
+    assert(i < count_);
+    size_t first = 0; // replaced element whose number is i or above, found by halves
+    for (size_t end = replacedCount_; first < end;) {
+        const size_t middle = first + (end - first) / 2;
+        if (replacedAt(middle) < i)
+            first = middle + 1;
+        else
+            end = middle;
+    }
+    if (first < replacedCount_ && replacedAt(first) == i)
+        return replacedElements_.substr(first * packedStride_, elementSize_);
+    return bytes_.substr(i * stride_, elementSize_);
+}
+
+// The numbers of sparse elements must ascend (section 5.2), which looking them up takes for granted.
+void AccessorView::checkSparse(const GltfDocument& document) const {
+    for (size_t i = 0; i < replacedCount_; ++i) {
+        if (replacedAt(i) >= count_)
+            throw document.error(fmt::format("{} replaces element {} of {}", name_, replacedAt(i), count_));
+        if (i > 0 && replacedAt(i) <= replacedAt(i - 1))
+            throw document.error(fmt::format("{} replaces element {} after element {}, but they must ascend",
+                                             name_, replacedAt(i), replacedAt(i - 1)));
+    }
+}
+
+bool AccessorView::isUnsignedScalar() const {
+    return type_ == TINYGLTF_TYPE_SCALAR && isUnsigned(componentType_);
+}
+
+bool AccessorView::isUnsignedVec4() const {
+    return isVec4() && isUnsigned(componentType_) && !normalized_;
+}
+
+bool AccessorView::isFloatMat4() const {
+    return type_ == TINYGLTF_TYPE_MAT4 && componentType_ == TINYGLTF_COMPONENT_TYPE_FLOAT;
+}
+
+template <class Vector>
+Vector AccessorView::vectorAt(size_t i) const {
+    constexpr auto kSize = static_cast<size_t>(Vector::length());
+    assert(elementSize_ == kSize * componentSize(componentType_) && i < count_);
+    const std::string_view element = elementAt(i);
+    if (componentType_ == TINYGLTF_COMPONENT_TYPE_FLOAT)
+        return load<Vector>(element);
+    const size_t size = elementSize_ / kSize;
+    Vector value;
+    for (size_t axis = 0; axis < kSize; ++axis)
+        value[static_cast<glm::length_t>(axis)] =
+            loadComponent(element.substr(axis * size), componentType_, normalized_);
+    return value;
+}
+
+float AccessorView::scalarAt(size_t i) const {
+    return vectorAt<glm::vec1>(i).x;
+}
+
+glm::vec2 AccessorView::vec2At(size_t i) const {
+    return vectorAt<glm::vec2>(i);
+}
+
+glm::vec3 AccessorView::vec3At(size_t i) const {
+    return vectorAt<glm::vec3>(i);
+}
+
+glm::vec4 AccessorView::vec4At(size_t i) const {
+    return vectorAt<glm::vec4>(i);
+}
+
+glm::mat4 AccessorView::mat4At(size_t i) const {
+    assert(isFloatMat4() && i < count_);
+    return load<glm::mat4>(elementAt(i));
+}
+
+uint32_t AccessorView::unsignedAt(size_t i) const {
+    assert(isUnsignedScalar() && i < count_);
+    return loadUnsigned(elementAt(i), componentType_);
+}
+
+void checkAccessors(const GltfDocument& document) {
+    for (size_t i = 0; i < document.model.bufferViews.size(); ++i)
+        requireInsideBuffer(document, static_cast<int>(i));
+    size_t zeros = 0;
+    for (size_t i = 0; i < document.model.accessors.size(); ++i) {
+        const tinygltf::Accessor& accessor = document.model.accessors[i];
+        if (!hasData(document, accessor))
+            continue;
+        AccessorView(document, static_cast<int>(i)).checkSparse(document);
+        zeros += accessor.bufferView < 0 ? accessor.count : 0; // kMostZeros each: no overflow
+        if (zeros > kMostZerosInAll)
+            throw document.error(fmt::format("its accessors ask for {} elements without data, at most {} are "
+                                             "supported",
+                                             zeros, kMostZerosInAll));
+    }
+}
+
+} // namespace lavalight

@@ -1,0 +1,122 @@
+// The import from bytes to Scene, step by step.
+#include "gltf/import.h"
+
+#include <algorithm>
+#include <new>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "base/file.h"
+#include "gltf/decode/accessor.h"
+#include "gltf/file/document.h"
+#include "gltf/read/camera.h"
+#include "gltf/read/light.h"
+#include "gltf/read/material.h"
+#include "gltf/read/mesh.h"
+#include "gltf/read/nodes.h"
+#include "gltf/read/pictures.h"
+#include "gltf/read/variants.h"
+#include "scene/framing_camera.h"
+
+namespace lavalight {
+namespace {
+
+void noteIgnored(const GltfDocument& document, GltfNotes& notes) {
+    for (const std::string& extension : document.ignoredExtensions)
+        notes.add(fmt::format("the extension {} is not supported and was ignored", printable(extension)));
+    for (size_t i = 0; i < document.textures.size(); ++i)
+        if (!document.textures[i].image)
+            notes.add(fmt::format(
+                "texture {} has no image that can be read, its materials show their plain factors", i));
+}
+
+Bounds boundsOf(const std::vector<Mesh>& meshes) {
+    if (meshes.empty())
+        return {};
+    Bounds bounds{meshes.front().positions.front(), meshes.front().positions.front()};
+    for (const Mesh& mesh : meshes) {
+        for (const glm::vec3& position : mesh.positions) {
+            bounds.lower = glm::min(bounds.lower, position);
+            bounds.upper = glm::max(bounds.upper, position);
+        }
+    }
+    return bounds;
+}
+
+bool hasEmission(const Scene& scene) {
+    return std::any_of(scene.meshes.begin(), scene.meshes.end(), [&](const Mesh& mesh) {
+        return scene.materials[mesh.material].emission != glm::vec3(0.0f);
+    });
+}
+
+bool hasPunctualLight(const Scene& scene) {
+    return std::any_of(scene.punctualLights.begin(), scene.punctualLights.end(),
+                       [](const PunctualLight& light) { return light.intensity != glm::vec3(0.0f); });
+}
+
+// The default material stands last. Where nothing wears it, it is not the file's; one material stays in any
+// case.
+void dropUnwornDefault(Scene& scene) {
+    const size_t last = scene.materials.size() - 1;
+    const bool isWorn = std::any_of(scene.meshes.begin(), scene.meshes.end(),
+                                    [&](const Mesh& mesh) { return mesh.material == last; });
+    if (!isWorn && last > 0)
+        scene.materials.pop_back();
+}
+
+Scene buildScene(const GltfDocument& document, const ImportOptions& options) {
+    checkAccessors(document);
+    GltfNotes notes;
+    Scene scene;
+    scene.source = document.source;
+    scene.extensionsUsed = document.extensionsUsed;
+    scene.ignoredExtensions = document.ignoredExtensions;
+
+    scene.variants = document.variants;
+    scene.animations = listAnimations(document);
+    const NodeTree nodes = placeNodes(document, poseAt(document, options));
+    noteIgnored(document, notes);
+    scene.materials = readMaterials(document, notes);
+    scene.pictures = readPictures(document, scene.materials, notes);
+    scene.meshes = readMeshes(document, nodes, scene.materials, notes);
+    dropUnwornDefault(scene);
+    scene.bounds = boundsOf(scene.meshes);
+    scene.cameras = readCameras(document, nodes.shown, notes);
+    if (scene.meshes.empty())
+        notes.add("the scene has no triangles");
+    scene.hasOwnCamera = !scene.cameras.empty();
+    if (!scene.hasOwnCamera)
+        scene.cameras.push_back(framingCamera(scene.bounds));
+    scene.punctualLights = readPunctualLights(document, nodes.shown, notes);
+    if (!options.bringsLight && !hasEmission(scene) && !hasPunctualLight(scene)) {
+        scene.environment = glm::vec3(1.0f);
+        notes.add("the scene has no light: a constant white environment stands in");
+    }
+    scene.warnings = notes.lines();
+    return scene;
+}
+
+Scene import(const GltfSource& source, std::string_view bytes, const ImportOptions& options) {
+    try {
+        GltfDocument document = parseGltf(bytes, source);
+        document.variant = findVariant(document.variants, options.variant, document.source);
+        return buildScene(document, options);
+    } catch (const std::bad_alloc&) {
+        throw gltfError(source.name, "the memory does not suffice");
+    } catch (const std::length_error&) {
+        throw gltfError(source.name, "the memory does not suffice");
+    }
+}
+
+} // namespace
+
+Scene importGltf(const std::filesystem::path& path, const ImportOptions& options) {
+    return import({path.string(), path.parent_path(), options.allowsExternal}, readFile(path), options);
+}
+
+Scene importGltf(const std::string& name, std::string_view bytes, const ImportOptions& options) {
+    return import({name, std::nullopt, false}, bytes, options);
+}
+
+} // namespace lavalight

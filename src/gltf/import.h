@@ -1,0 +1,24 @@
+// glTF 2.0 in, plain Scene out.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "gltf/import_options.h"
+#include "scene/scene.h"
+
+namespace lavalight {
+
+// The default scene of a .gltf or .glb file, told apart by content. What the importer does not understand is
+// named in Scene::warnings; a scene without any light gets a constant white environment, one without a camera
+// gets one that frames it. Throws Error, in one line with the file's name, for what cannot be read: a missing
+// or damaged file, data out of range, a buffer outside the file's folder unless that is allowed, a required
+// extension that is not supported.
+[[nodiscard]] Scene importGltf(const std::filesystem::path& path, const ImportOptions& options = {});
+
+// The same for bytes at hand; they cannot refer to other files. `name` stands for the file in messages.
+[[nodiscard]] Scene importGltf(const std::string& name, std::string_view bytes,
+                               const ImportOptions& options = {});
+
+} // namespace lavalight

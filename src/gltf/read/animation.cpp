@@ -1,0 +1,84 @@
+// Animations (glTF 2.0 specification, section 3.11).
+#include "gltf/read/animation.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "base/named.h"
+#include "gltf/decode/accessor.h"
+#include "gltf/read/keyframes.h"
+
+namespace lavalight {
+namespace {
+
+// Keys may be broken in an animation that nobody asked for: only what is plain counts.
+float lastKey(const GltfDocument& document, const tinygltf::Animation& animation) {
+    float last = 0.0f;
+    for (const tinygltf::AnimationSampler& sampler : animation.samplers) {
+        const AccessorView times(document, sampler.input);
+        if (times.isScalar())
+            last = std::max(last, times.scalarAt(times.count() - 1));
+    }
+    return last;
+}
+
+// The first, unless another is wanted.
+size_t findAnimation(const GltfDocument& document, const std::string& wanted) {
+    const std::string source = printable(document.source);
+    if (document.model.animations.empty())
+        throw UsageError(fmt::format("{} has no animation that a time could be asked of", source));
+    if (wanted.empty())
+        return 0;
+    std::vector<std::string> names;
+    for (const tinygltf::Animation& animation : document.model.animations)
+        names.push_back(printable(animation.name));
+    return findNamed(names, {wanted, "--animation", "animation", source});
+}
+
+void applyChannel(const Keyframes& keys, const std::string& path, double seconds, NodePose& node) {
+    if (path == "translation") {
+        node.translation = glm::dvec3(keys.at(seconds, 0));
+    } else if (path == "rotation") {
+        node.rotation = keys.at(seconds, 0);
+    } else if (path == "scale") {
+        node.scale = glm::dvec3(keys.at(seconds, 0));
+    } else {
+        node.weights.clear();
+        for (size_t lane = 0; lane < keys.lanes(); ++lane)
+            node.weights.push_back(keys.at(seconds, lane).x);
+    }
+}
+
+} // namespace
+
+std::vector<Animation> listAnimations(const GltfDocument& document) {
+    std::vector<Animation> animations;
+    for (const tinygltf::Animation& animation : document.model.animations)
+        animations.push_back({printable(animation.name), lastKey(document, animation)});
+    return animations;
+}
+
+Pose poseAt(const GltfDocument& document, const ImportOptions& options) {
+    if (!options.seconds)
+        return {};
+    const size_t index = findAnimation(document, options.animation);
+    const tinygltf::Animation& animation = document.model.animations[index];
+    const std::string name = describe("animation", index, animation.name);
+    Pose pose(document.model.nodes.size());
+    KeyTimes times(document);
+    for (const tinygltf::AnimationChannel& channel : animation.channels) {
+        const std::string& path = channel.target_path;
+        if (path != "translation" && path != "rotation" && path != "scale" && path != "weights")
+            continue; // of extensions, which have been named as ignored
+        const auto sampler = static_cast<size_t>(channel.sampler);
+        if (channel.sampler < 0 || sampler >= animation.samplers.size())
+            throw document.error(fmt::format("{} has {} samplers, but a channel uses number {}", name,
+                                             animation.samplers.size(), channel.sampler));
+        const Keyframes keys(document, animation.samplers[sampler], path, times);
+        applyChannel(keys, path, *options.seconds, pose.at(static_cast<size_t>(channel.target_node)));
+    }
+    return pose;
+}
+
+} // namespace lavalight

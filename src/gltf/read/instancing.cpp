@@ -1,0 +1,65 @@
+#include "gltf/read/instancing.h"
+
+#include <fmt/format.h>
+
+#include "gltf/read/transform.h"
+
+namespace lavalight {
+namespace {
+
+// The accessor of one of the extension's attributes; the schema check has seen to the index.
+std::optional<int> accessorOf(const tinygltf::Node& node, const char* attribute) {
+    const auto extension = node.extensions.find("EXT_mesh_gpu_instancing");
+    if (extension == node.extensions.end() || !extension->second.Has("attributes"))
+        return std::nullopt;
+    const tinygltf::Value& attributes = extension->second.Get("attributes");
+    if (!attributes.Has(attribute))
+        return std::nullopt;
+    return attributes.Get(attribute).GetNumberAsInt();
+}
+
+void readAttribute(const GltfDocument& document, const tinygltf::Node& node, const char* attribute,
+                   std::optional<AccessorView>& view) {
+    const std::optional<int> accessor = accessorOf(node, attribute);
+    if (!accessor)
+        return;
+    view.emplace(document, *accessor);
+    const bool isRotation = std::string_view(attribute) == "ROTATION";
+    if (isRotation ? !view->isVec4() : !view->isVec3())
+        throw document.error(fmt::format("{} is used as {} of instances and must be a {}", view->name(),
+                                         attribute, isRotation ? "VEC4" : "VEC3"));
+    if (view->count() != instanceCount(document, node))
+        throw document.error(fmt::format("{} is used as {} of instances and has {} elements instead of {}",
+                                         view->name(), attribute, view->count(),
+                                         instanceCount(document, node)));
+}
+
+} // namespace
+
+size_t instanceCount(const GltfDocument& document, const tinygltf::Node& node) {
+    for (const char* attribute : {"TRANSLATION", "ROTATION", "SCALE"}) {
+        if (const std::optional<int> accessor = accessorOf(node, attribute))
+            return document.model.accessors.at(static_cast<size_t>(*accessor)).count;
+    }
+    return 1;
+}
+
+InstanceReader::InstanceReader(const GltfDocument& document, const tinygltf::Node& node)
+    : count_(instanceCount(document, node)) {
+    readAttribute(document, node, "TRANSLATION", translations_);
+    readAttribute(document, node, "ROTATION", rotations_);
+    readAttribute(document, node, "SCALE", scales_);
+}
+
+glm::dmat4 InstanceReader::transform(size_t i) const {
+    Transform transform;
+    if (translations_)
+        transform.translation = translations_->vec3At(i);
+    if (rotations_)
+        transform.rotation = rotations_->vec4At(i);
+    if (scales_)
+        transform.scale = scales_->vec3At(i);
+    return transform.matrix();
+}
+
+} // namespace lavalight

@@ -1,0 +1,58 @@
+// Keys of an animation's sampler and what lies between them.
+#pragma once
+
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "gltf/decode/accessor.h"
+
+namespace lavalight {
+
+// The times of keys, read from each accessor once: thousands of channels may share one.
+class KeyTimes {
+  public:
+    // The document must outlive it.
+    explicit KeyTimes(const GltfDocument& document) : document_(document) {}
+
+    // Seconds, ascending, not empty. Throws Error naming the accessor for times that do not ascend.
+    [[nodiscard]] const std::vector<float>& of(int accessor);
+
+  private:
+    const GltfDocument& document_;
+    std::map<int, std::vector<float>> times_; // by accessor
+};
+
+// The keys of one channel. The document and the times must outlive it.
+class Keyframes {
+  public:
+    // `path` is the channel's: translation, rotation, scale or weights. Throws Error naming the accessor
+    // for times that do not ascend, and for values whose type or number does not fit path and times.
+    Keyframes(const GltfDocument& document, const tinygltf::AnimationSampler& sampler,
+              const std::string& path, KeyTimes& times);
+
+    // Values of one key: 1, or the number of weights.
+    [[nodiscard]] size_t lanes() const { return lanes_; }
+
+    // The value at a time in seconds; components that the type lacks are 0. Rotations are of unit length.
+    [[nodiscard]] glm::dvec4 at(double seconds, size_t lane) const;
+
+  private:
+    enum class Interpolation { step, linear, cubic };
+    enum class Part { inTangent, value, outTangent }; // of a cubic key, in the order of storage
+
+    void checkValues(const GltfDocument& document);
+    [[nodiscard]] glm::dvec4 stored(size_t key, size_t lane, Part part = Part::value) const;
+    [[nodiscard]] glm::dvec4 between(size_t key, double seconds, size_t lane) const;
+
+    AccessorView output_;
+    std::string path_;
+    Interpolation interpolation_ = Interpolation::linear;
+    std::span<const float> times_;
+    size_t lanes_ = 1;
+};
+
+} // namespace lavalight

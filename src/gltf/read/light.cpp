@@ -1,0 +1,104 @@
+// Point, spot and directional lights (KHR_lights_punctual): they shine along -z of their node. Candela and
+// lux are taken as W/sr and W/m^2. "range" is ignored by design: light falls off with the square of the
+// distance, wherever it gets.
+#include "gltf/read/light.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <string>
+
+#include "gltf/read/factors.h"
+
+namespace lavalight {
+namespace {
+
+std::optional<PunctualKind> kindOf(const std::string& type) {
+    if (type == "point")
+        return PunctualKind::point;
+    if (type == "spot")
+        return PunctualKind::spot;
+    if (type == "directional")
+        return PunctualKind::directional;
+    return std::nullopt;
+}
+
+// The number of the node's light, or -1.
+int lightOf(const tinygltf::Node& node) {
+    const auto extension = node.extensions.find("KHR_lights_punctual");
+    return extension == node.extensions.end() ? -1 : extension->second.Get("light").GetNumberAsInt();
+}
+
+// The node's scale leaves the light as it is. False where the node puts the light out of reach or squeezes
+// its -z axis to nothing, and the light needs what is missing.
+bool placeLight(const glm::dmat4& toWorld, PunctualLight& light) {
+    const glm::dvec3 position(toWorld[3]);
+    const glm::dvec3 forward = -glm::dvec3(toWorld[2]);
+    const double length = glm::length(forward);
+    const bool hasPlace = glm::all(glm::lessThanEqual(glm::abs(position), glm::dvec3(kLargestPosition)));
+    const bool hasDirection = length > 0.0 && std::isfinite(length);
+    if (hasPlace)
+        light.position = glm::vec3(position);
+    if (hasDirection)
+        light.direction = glm::vec3(forward / length);
+    return (hasPlace || light.kind == PunctualKind::directional) &&
+           (hasDirection || light.kind == PunctualKind::point);
+}
+
+void readCone(const tinygltf::SpotLight& spot, const std::string& name, PunctualLight& light,
+              GltfNotes& notes) {
+    constexpr double kQuarterTurn = std::numbers::pi / 2.0;
+    light.outerConeAngle =
+        FactorReader(name, notes).clamped(spot.outerConeAngle, 0.0, kQuarterTurn, "outerConeAngle");
+    const double outer = std::clamp(spot.outerConeAngle, 0.0, kQuarterTurn);
+    if (spot.innerConeAngle < 0.0 || spot.innerConeAngle > outer)
+        notes.addObject("innerConeAngle was clamped to 0 .. outerConeAngle", name);
+    light.innerConeAngle = static_cast<float>(std::clamp(spot.innerConeAngle, 0.0, outer));
+}
+
+// What of a light does not depend on its node; nothing for an unknown type.
+std::optional<PunctualLight> readLight(const tinygltf::Light& source, const std::string& name,
+                                       GltfNotes& notes) {
+    const std::optional<PunctualKind> kind = kindOf(source.type);
+    if (!kind) {
+        notes.addObject("lights of an unknown type were left out", name);
+        return std::nullopt;
+    }
+    FactorReader factors(name, notes);
+    PunctualLight light;
+    light.kind = *kind;
+    light.intensity = glm::vec3(factors.clamped(source.intensity, 0.0, kLargestFactor, "intensity"));
+    if (!source.color.empty())
+        light.intensity *= factors.clamped(source.color, 1.0, "color");
+    if (light.kind == PunctualKind::spot)
+        readCone(source.spot, name, light, notes);
+    return light;
+}
+
+} // namespace
+
+std::vector<PunctualLight> readPunctualLights(const GltfDocument& document,
+                                              const std::vector<PlacedNode>& nodes, GltfNotes& notes) {
+    std::vector<PunctualLight> lights;
+    for (const PlacedNode& placed : nodes) {
+        const tinygltf::Node& node = document.model.nodes[static_cast<size_t>(placed.node)];
+        const int number = lightOf(node);
+        if (number < 0 || !placed.isVisible)
+            continue;
+        const tinygltf::Light& source = document.model.lights[static_cast<size_t>(number)];
+        const std::string& ownName = source.name.empty() ? node.name : source.name;
+        const std::string name = describe("light", static_cast<size_t>(number), ownName);
+        std::optional<PunctualLight> light = readLight(source, name, notes);
+        if (!light)
+            continue;
+        light->name = printable(ownName);
+        if (placeLight(placed.toWorld, *light))
+            lights.push_back(*light);
+        else
+            notes.addObject("lights without a place or a direction were left out", name);
+    }
+    return lights;
+}
+
+} // namespace lavalight

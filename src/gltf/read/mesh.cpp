@@ -1,0 +1,264 @@
+// Primitives of glTF meshes (glTF 2.0 specification, section 3.7.2).
+#include "gltf/read/mesh.h"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "base/os/memory.h"
+#include "gltf/read/instancing.h"
+#include "gltf/read/morph.h"
+#include "gltf/read/skin.h"
+#include "gltf/read/topology.h"
+#include "gltf/read/variants.h"
+#include "gltf/read/vertices.h"
+#include "scene/mesh_bake.h"
+#include "scene/mesh_vertices.h"
+#include "scene/tangents.h"
+
+namespace lavalight {
+namespace {
+
+using MeshInstances = std::vector<std::vector<const PlacedNode*>>; // by glTF mesh
+
+MeshInstances groupByMesh(const GltfDocument& document, const std::vector<PlacedNode>& nodes) {
+    MeshInstances instances(document.model.meshes.size());
+    for (const PlacedNode& placed : nodes) {
+        const int mesh = document.model.nodes[static_cast<size_t>(placed.node)].mesh;
+        if (mesh >= 0 && placed.isVisible)
+            instances[static_cast<size_t>(mesh)].push_back(&placed);
+    }
+    return instances;
+}
+
+// What is drawn, in numbers whose products may overflow integers.
+struct Extent {
+    double triangles = 0.0;
+    double bytes = 0.0; // of meshes in world space, at most
+
+    Extent& operator+=(const Extent& other) {
+        triangles += other.triangles;
+        bytes += other.bytes;
+        return *this;
+    }
+    [[nodiscard]] Extent times(double count) const { return {count * triangles, count * bytes}; }
+};
+
+// Vertices that triangles use, at most.
+double usedVertices(const GltfDocument& document, const tinygltf::Primitive& primitive) {
+    const auto triangles = static_cast<double>(triangleCount(primitive, document));
+    if (triangles == 0.0)
+        return 0.0;
+    const int positions = primitive.attributes.at("POSITION");
+    const size_t vertices = document.model.accessors.at(static_cast<size_t>(positions)).count;
+    return std::min(3.0 * triangles, static_cast<double>(vertices));
+}
+
+Extent extentOf(const GltfDocument& document, const tinygltf::Primitive& primitive) {
+    const auto triangles = static_cast<double>(triangleCount(primitive, document));
+    if (triangles == 0.0)
+        return {};
+    size_t vertexBytes = sizeof(glm::vec3) + sizeof(glm::vec4); // a position, and a tangent that is generated
+    for (const auto& [attribute, accessor] : primitive.attributes) {
+        vertexBytes += attribute == "NORMAL" ? sizeof(glm::vec3) : 0;
+        vertexBytes += attribute == "COLOR_0" ? sizeof(glm::vec4) : 0;
+        vertexBytes += attribute.starts_with("TEXCOORD_") ? sizeof(glm::vec2) : 0;
+    }
+    constexpr double kAllocations = 128.0; // of a mesh, and its name
+    return {triangles, sizeof(Mesh) + kAllocations +
+                           usedVertices(document, primitive) * static_cast<double>(vertexBytes) +
+                           triangles * sizeof(glm::uvec3)};
+}
+
+// Instances multiply: a small file may ask for more than any memory holds.
+void requireFitting(const GltfDocument& document, const MeshInstances& instances) {
+    Extent total;
+    for (size_t i = 0; i < instances.size(); ++i) {
+        Extent ofMesh;
+        for (const tinygltf::Primitive& primitive : document.model.meshes[i].primitives)
+            ofMesh += extentOf(document, primitive);
+        for (const PlacedNode* placed : instances[i]) {
+            const tinygltf::Node& node = document.model.nodes[static_cast<size_t>(placed->node)];
+            total += ofMesh.times(static_cast<double>(instanceCount(document, node)));
+        }
+    }
+    if (total.triangles > static_cast<double>(kMostTriangles))
+        throw document.error(
+            fmt::format("it draws {:.0f} triangles, at most {} are supported: simplify the scene",
+                        total.triangles, kMostTriangles));
+    if (const std::string shortage = memoryShortage(static_cast<uint64_t>(total.bytes)); !shortage.empty())
+        throw document.error(fmt::format("the {:.0f} triangles that it draws {}: simplify the scene",
+                                         total.triangles, shortage));
+}
+
+// Nodes that show one mesh multiply its targets, which may all be of the same few values.
+void requireFewMorphs(const GltfDocument& document, const MeshInstances& instances, const Pose& pose) {
+    constexpr double kMost = 1e10; // 4 ns each: 40 seconds
+    double steps = 0.0;
+    for (size_t i = 0; i < instances.size(); ++i) {
+        for (const tinygltf::Primitive& primitive : document.model.meshes[i].primitives) {
+            if (primitive.targets.empty())
+                continue;
+            const double vertices = usedVertices(document, primitive);
+            for (const PlacedNode* placed : instances[i]) {
+                steps += morphSteps(primitive, vertices, morphWeights(document, placed->node, pose));
+                if (steps > kMost)
+                    throw document.error(
+                        fmt::format("its morph targets move vertices more than {:.0e} times: "
+                                    "simplify the scene",
+                                    kMost));
+            }
+        }
+    }
+}
+
+void noteUnread(const GltfDocument& document, const tinygltf::Primitive& primitive, const std::string& name,
+                GltfNotes& notes) {
+    const int indices = primitive.indices;
+    if (primitive.mode == TINYGLTF_MODE_TRIANGLES && indices >= 0 &&
+        document.model.accessors[static_cast<size_t>(indices)].count % 3 != 0)
+        notes.addObject("the last triangle is incomplete and was left out", name);
+}
+
+// A primitive in its own space, with the numbers of its vertices in the file.
+struct LocalMesh {
+    const tinygltf::Primitive& source;
+    Mesh mesh; // empty if it shows no triangles
+    std::vector<uint32_t> vertices;
+};
+
+LocalMesh readPrimitive(const GltfDocument& document, const tinygltf::Primitive& primitive,
+                        const std::string& name, GltfNotes& notes) {
+    LocalMesh local{primitive, {}, {}};
+    if (!hasTriangles(primitive)) {
+        notes.addObject("points and lines are not rendered", name);
+        return local;
+    }
+    if (!primitive.attributes.contains("POSITION")) {
+        notes.addObject("a primitive without positions shows nothing", name);
+        return local;
+    }
+    const size_t vertexCount = countVertices(document, primitive, name);
+    noteUnread(document, primitive, name, notes);
+    std::vector<glm::uvec3> triangles = readTriangles(document, primitive, vertexCount);
+    local.vertices = compactIndices(triangles);
+    local.mesh = readVertices(document, primitive, local.vertices, name, notes);
+    local.mesh.triangles = std::move(triangles);
+    return local;
+}
+
+void noteCounts(const BakeCounts& counts, GltfNotes& notes) {
+    if (counts.outOfRange > 0)
+        notes.add(fmt::format("{} triangles were left out: positions that are not finite or too large",
+                              counts.outOfRange));
+    if (counts.withoutArea > 0)
+        notes.add(fmt::format("{} triangles without area were left out", counts.withoutArea));
+    if (counts.repairedNormals > 0)
+        notes.add(fmt::format("{} normals of no direction were replaced by those of the triangles",
+                              counts.repairedNormals));
+    if (counts.repairedTangents > 0)
+        notes.add(fmt::format("{} tangents of no direction were replaced by others along the surface",
+                              counts.repairedTangents));
+}
+
+// Reads primitives and places them in the scene.
+class MeshReader {
+  public:
+    MeshReader(const GltfDocument& document, const NodeTree& tree, const std::vector<Material>& materials,
+               GltfNotes& notes)
+        : document_(document), tree_(tree), materials_(materials), notes_(notes) {}
+
+    // Everything that nodes show of glTF's mesh `index`.
+    void read(size_t index, const std::vector<const PlacedNode*>& nodes) {
+        const tinygltf::Mesh& source = document_.model.meshes[index];
+        const std::string name = describe("mesh", index, source.name);
+        for (const tinygltf::Primitive& primitive : source.primitives) {
+            LocalMesh local = readPrimitive(document_, primitive, name, notes_);
+            const int material = materialOf(primitive, document_.variant);
+            local.mesh.material =
+                material < 0 ? static_cast<uint32_t>(materials_.size() - 1) : static_cast<uint32_t>(material);
+            if (local.mesh.triangles.empty())
+                continue;
+            for (const PlacedNode* placed : nodes) {
+                const tinygltf::Node& node = document_.model.nodes[static_cast<size_t>(placed->node)];
+                local.mesh.name = printable(source.name.empty() ? node.name : source.name);
+                show(local, *placed, node);
+            }
+        }
+    }
+
+    [[nodiscard]] std::vector<Mesh> finish() {
+        noteCounts(counts_, notes_);
+        return std::move(meshes_);
+    }
+
+  private:
+    // What one node shows of a primitive: morphed, then skinned or placed.
+    void show(const LocalMesh& local, const PlacedNode& placed, const tinygltf::Node& node) {
+        const bool isSkinned = node.skin >= 0 && hasJoints(local.source);
+        if (node.skin >= 0 && !isSkinned)
+            notes_.addObject("a skin moves no mesh without JOINTS_0 and WEIGHTS_0",
+                             describe("node", static_cast<size_t>(placed.node), node.name));
+        if (local.source.targets.empty() && !isSkinned)
+            return placeInstances(local.mesh, placed, node);
+        Mesh mesh = local.mesh;
+        applyMorphTargets(document_, local.source, local.vertices,
+                          morphWeights(document_, placed.node, tree_.pose), mesh);
+        if (!isSkinned)
+            return placeInstances(mesh, placed, node);
+        applySkin(document_, local.source, local.vertices, jointsOf(node.skin), mesh);
+        cleanMesh(mesh, counts_);
+        keep(std::move(mesh));
+    }
+
+    // Of each skin once: thousands of nodes may share one.
+    const std::vector<glm::dmat4>& jointsOf(int skin) {
+        const auto known = joints_.find(skin);
+        if (known != joints_.end())
+            return known->second;
+        return joints_.emplace(skin, jointTransforms(document_, skin, tree_.toWorld)).first->second;
+    }
+
+    void placeInstances(const Mesh& local, const PlacedNode& placed, const tinygltf::Node& node) {
+        const InstanceReader instances(document_, node);
+        for (size_t i = 0; i < instances.count(); ++i)
+            keep(bakeMesh(local, placed.toWorld * instances.transform(i), counts_));
+    }
+
+    // Takes a mesh in world space, with tangents where its material wants them.
+    void keep(Mesh mesh) {
+        const std::optional<uint32_t> uvSet = tangentUvSet(materials_[mesh.material]);
+        if (mesh.tangents.empty() && uvSet)
+            generateTangents(mesh, *uvSet);
+        if (!mesh.triangles.empty())
+            meshes_.push_back(std::move(mesh));
+    }
+
+    const GltfDocument& document_;
+    const NodeTree& tree_;
+    const std::vector<Material>& materials_;
+    GltfNotes& notes_;
+    BakeCounts counts_;
+    std::map<int, std::vector<glm::dmat4>> joints_; // by skin
+    std::vector<Mesh> meshes_;
+};
+
+} // namespace
+
+std::vector<Mesh> readMeshes(const GltfDocument& document, const NodeTree& tree,
+                             const std::vector<Material>& materials, GltfNotes& notes) {
+    const MeshInstances instances = groupByMesh(document, tree.shown);
+    requireFitting(document, instances);
+    requireFewMorphs(document, instances, tree.pose);
+    MeshReader reader(document, tree, materials, notes);
+    for (size_t i = 0; i < instances.size(); ++i) {
+        if (!instances[i].empty())
+            reader.read(i, instances[i]);
+    }
+    return reader.finish();
+}
+
+} // namespace lavalight

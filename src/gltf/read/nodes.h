@@ -1,0 +1,31 @@
+// Walks the node hierarchy of a glTF scene.
+#pragma once
+
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "gltf/file/document.h"
+#include "gltf/read/animation.h"
+
+namespace lavalight {
+
+// A node of the shown scene with its transform to world space.
+struct PlacedNode {
+    int node = -1;
+    glm::dmat4 toWorld{1.0}; // double: deep hierarchies multiply many
+    bool isVisible = true;   // its mesh and its light; cameras are always there
+};
+
+// All nodes in one pose.
+struct NodeTree {
+    std::vector<PlacedNode> shown;   // parents before children
+    std::vector<glm::dmat4> toWorld; // of every node: joints may stand outside the scene
+    Pose pose;
+};
+
+// `shown` holds the nodes of the default scene (of scene 0 where none is named, of all root nodes where there
+// are no scenes). Throws Error unless the nodes form a forest: cycles, nodes with two parents.
+[[nodiscard]] NodeTree placeNodes(const GltfDocument& document, Pose pose);
+
+} // namespace lavalight

@@ -1,0 +1,109 @@
+// Linear blend skinning (glTF 2.0 specification, section 3.7.3).
+#include "gltf/read/skin.h"
+
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "gltf/decode/accessor.h"
+#include "scene/mesh_bake.h"
+
+namespace lavalight {
+namespace {
+
+// Adds up each vertex's joints by their weights.
+class Blend {
+  public:
+    Blend(const GltfDocument& document, const std::vector<uint32_t>& vertices,
+          const std::vector<glm::dmat4>& joints)
+        : document_(document), vertices_(vertices), joints_(joints),
+          transforms_(vertices.size(), glm::dmat4(0.0)), sums_(vertices.size(), 0.0) {}
+
+    // Four joints a vertex, and their weights.
+    void add(const AccessorView& joints, const AccessorView& weights) {
+        if (!joints.isUnsignedVec4() || !weights.isVec4())
+            throw document_.error(
+                fmt::format("{} and {} are used as joints and weights: they must be VEC4s, the "
+                            "first of an unsigned type",
+                            joints.name(), weights.name()));
+        for (size_t i = 0; i < vertices_.size(); ++i) {
+            const glm::vec4 numbers = joints.vec4At(vertices_[i]);
+            const glm::vec4 parts = weights.vec4At(vertices_[i]);
+            for (int k = 0; k < 4; ++k) {
+                if (parts[k] > 0.0f && std::isfinite(parts[k]))
+                    addJoint(i, numbers[k], parts[k], joints.name());
+            }
+        }
+    }
+
+    // Weights should add up to 1; quantized ones do so nearly. Vertices that no joint moves follow the first.
+    [[nodiscard]] glm::dmat4 transform(size_t i) const {
+        return sums_[i] > 0.0 ? transforms_[i] / sums_[i] : joints_.front();
+    }
+
+  private:
+    void addJoint(size_t vertex, float number, double weight, const std::string& accessor) {
+        if (!(number < static_cast<float>(joints_.size())))
+            throw document_.error(
+                fmt::format("{} names joint {} of a skin that has {}", accessor, number, joints_.size()));
+        transforms_[vertex] += weight * joints_[static_cast<size_t>(number)];
+        sums_[vertex] += weight;
+    }
+
+    const GltfDocument& document_;
+    const std::vector<uint32_t>& vertices_;
+    const std::vector<glm::dmat4>& joints_;
+    std::vector<glm::dmat4> transforms_;
+    std::vector<double> sums_;
+};
+
+} // namespace
+
+std::vector<glm::dmat4> jointTransforms(const GltfDocument& document, int skin,
+                                        const std::vector<glm::dmat4>& toWorld) {
+    const tinygltf::Skin& source = document.model.skins.at(static_cast<size_t>(skin));
+    const std::string name = describe("skin", static_cast<size_t>(skin), source.name);
+    if (source.joints.empty())
+        throw document.error(name + " has no joints");
+    std::vector<glm::dmat4> transforms;
+    for (const int joint : source.joints)
+        transforms.push_back(toWorld.at(static_cast<size_t>(joint)));
+    if (source.inverseBindMatrices < 0)
+        return transforms;
+    const AccessorView matrices(document, source.inverseBindMatrices);
+    if (!matrices.isFloatMat4() || matrices.count() < transforms.size())
+        throw document.error(fmt::format("{} needs {} MAT4s of floats for its joints, {} does not hold them",
+                                         name, transforms.size(), matrices.name()));
+    for (size_t i = 0; i < transforms.size(); ++i)
+        transforms[i] *= glm::dmat4(matrices.mat4At(i));
+    return transforms;
+}
+
+bool hasJoints(const tinygltf::Primitive& primitive) {
+    return primitive.attributes.contains("JOINTS_0") && primitive.attributes.contains("WEIGHTS_0");
+}
+
+void applySkin(const GltfDocument& document, const tinygltf::Primitive& primitive,
+               const std::vector<uint32_t>& vertices, const std::vector<glm::dmat4>& joints, Mesh& mesh) {
+    Blend blend(document, vertices, joints);
+    for (size_t set = 0;; ++set) {
+        const auto numbers = primitive.attributes.find(fmt::format("JOINTS_{}", set));
+        const auto weights = primitive.attributes.find(fmt::format("WEIGHTS_{}", set));
+        if (numbers == primitive.attributes.end() || weights == primitive.attributes.end())
+            break;
+        blend.add(AccessorView(document, numbers->second), AccessorView(document, weights->second));
+    }
+    std::vector<bool> isMirrored(vertices.size(), false);
+    for (size_t i = 0; i < vertices.size(); ++i) {
+        const VertexTransform transform(blend.transform(i));
+        transform.apply(mesh, i);
+        isMirrored[i] = transform.isMirrored();
+    }
+    for (glm::uvec3& triangle : mesh.triangles) {
+        if (isMirrored[triangle.x])
+            std::swap(triangle.y, triangle.z);
+    }
+}
+
+} // namespace lavalight

@@ -1,0 +1,23 @@
+// Turns the primitive modes of glTF into lists of triangles.
+#pragma once
+
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "gltf/decode/accessor.h"
+
+namespace lavalight {
+
+[[nodiscard]] bool hasTriangles(const tinygltf::Primitive& primitive);
+
+// How many triangles a primitive asks for, before any are dropped.
+[[nodiscard]] size_t triangleCount(const tinygltf::Primitive& primitive, const GltfDocument& document);
+
+// The triangles of a list, strip or fan as indices below `vertexCount`, front faces counter-clockwise.
+// Triangles of a strip or fan that name a vertex twice, which join strips, are left out. Throws Error for an
+// index out of range.
+[[nodiscard]] std::vector<glm::uvec3> readTriangles(const GltfDocument& document,
+                                                    const tinygltf::Primitive& primitive, size_t vertexCount);
+
+} // namespace lavalight

@@ -1,0 +1,126 @@
+// Vertex attributes (glTF 2.0 specification, section 3.7.2.1; KHR_mesh_quantization widens the types of their
+// components, which accessors read whatever they are).
+#include "gltf/read/vertices.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "gltf/decode/accessor.h"
+
+namespace lavalight {
+namespace {
+
+// Sets beyond are not read. Files of today have up to four; materials name one a texture.
+constexpr size_t kMostUvSets = 16;
+
+class VertexReader {
+  public:
+    VertexReader(const GltfDocument& document, const tinygltf::Primitive& primitive,
+                 const std::vector<uint32_t>& vertices)
+        : document_(document), primitive_(primitive), vertices_(vertices) {}
+
+    [[nodiscard]] std::vector<glm::vec2> vec2s(const std::string& attribute) const {
+        return read<glm::vec2>(attribute, &AccessorView::isVec2, &AccessorView::vec2At);
+    }
+    [[nodiscard]] std::vector<glm::vec3> vec3s(const std::string& attribute) const {
+        return read<glm::vec3>(attribute, &AccessorView::isVec3, &AccessorView::vec3At);
+    }
+    [[nodiscard]] std::vector<glm::vec4> vec4s(const std::string& attribute) const {
+        return read<glm::vec4>(attribute, &AccessorView::isVec4, &AccessorView::vec4At);
+    }
+    [[nodiscard]] bool isVec3(const std::string& attribute) const {
+        const auto found = primitive_.attributes.find(attribute);
+        return found != primitive_.attributes.end() && AccessorView(document_, found->second).isVec3();
+    }
+
+  private:
+    // Nothing where the primitive lacks the attribute.
+    template <class Vector>
+    [[nodiscard]] std::vector<Vector> read(const std::string& attribute,
+                                           bool (AccessorView::*isRight)() const,
+                                           Vector (AccessorView::*at)(size_t) const) const {
+        std::vector<Vector> values;
+        const auto found = primitive_.attributes.find(attribute);
+        if (found == primitive_.attributes.end())
+            return values;
+        const AccessorView view(document_, found->second);
+        if (!(view.*isRight)())
+            throw document_.error(fmt::format("{} is used as {} and must be a VEC{}", view.name(), attribute,
+                                              Vector::length()));
+        values.reserve(vertices_.size());
+        for (const uint32_t vertex : vertices_)
+            values.push_back((view.*at)(vertex));
+        return values;
+    }
+
+    const GltfDocument& document_;
+    const tinygltf::Primitive& primitive_;
+    const std::vector<uint32_t>& vertices_;
+};
+
+std::vector<std::vector<glm::vec2>> readUvs(const VertexReader& reader, const std::string& name,
+                                            GltfNotes& notes) {
+    std::vector<std::vector<glm::vec2>> uvs;
+    for (size_t set = 0; set < kMostUvSets; ++set) {
+        std::vector<glm::vec2> values = reader.vec2s(fmt::format("TEXCOORD_{}", set));
+        if (values.empty())
+            continue;
+        for (glm::vec2& uv : values) {
+            if (std::isfinite(uv.x) && std::isfinite(uv.y))
+                continue;
+            uv = glm::vec2(0.0f);
+            notes.addObject("texture coordinates that are not finite were taken as 0", name);
+        }
+        uvs.resize(set + 1);
+        uvs.back() = std::move(values);
+    }
+    return uvs;
+}
+
+// Clamped, as the specification has it; false comparisons make NaN a 0.
+std::vector<glm::vec4> readColors(const VertexReader& reader) {
+    std::vector<glm::vec4> colors;
+    if (reader.isVec3("COLOR_0")) {
+        for (const glm::vec3& color : reader.vec3s("COLOR_0"))
+            colors.emplace_back(color, 1.0f);
+    } else {
+        colors = reader.vec4s("COLOR_0");
+    }
+    for (glm::vec4& color : colors) {
+        for (int channel = 0; channel < 4; ++channel)
+            color[channel] = color[channel] > 0.0f ? std::min(color[channel], 1.0f) : 0.0f;
+    }
+    return colors;
+}
+
+} // namespace
+
+size_t countVertices(const GltfDocument& document, const tinygltf::Primitive& primitive,
+                     const std::string& name) {
+    const auto countOf = [&](int accessor) {
+        return document.model.accessors.at(static_cast<size_t>(accessor)).count;
+    };
+    const size_t vertexCount = countOf(primitive.attributes.at("POSITION"));
+    for (const auto& [attribute, accessor] : primitive.attributes) {
+        if (countOf(accessor) != vertexCount)
+            throw document.error(fmt::format("{} has {} vertices but {} elements of {}", name, vertexCount,
+                                             countOf(accessor), attribute));
+    }
+    return vertexCount;
+}
+
+Mesh readVertices(const GltfDocument& document, const tinygltf::Primitive& primitive,
+                  const std::vector<uint32_t>& vertices, const std::string& name, GltfNotes& notes) {
+    const VertexReader reader(document, primitive, vertices);
+    Mesh mesh;
+    mesh.positions = reader.vec3s("POSITION");
+    mesh.normals = reader.vec3s("NORMAL");
+    mesh.uvs = readUvs(reader, name, notes);
+    mesh.colors = readColors(reader);
+    mesh.tangents = reader.vec4s("TANGENT");
+    return mesh;
+}
+
+} // namespace lavalight

@@ -1,0 +1,41 @@
+// One path of a render, vertex by vertex: for looking at, not for images.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "gpu/device.h"
+#include "gpu/kernel.h"
+#include "kernels/kernel_source.h"
+#include "render/renderer.h"
+#include "shared/traced_path.h"
+
+namespace lavalight {
+
+struct TracedPath {
+    std::vector<TracedVertex> vertices; // the last one may be where the path left the scene
+    glm::vec3 radiance{0.0f};           // that the sample adds to its pixel
+};
+
+// Follows paths with the kernel trace_path, which has the estimator's own functions and is compiled once.
+class PathTracer {
+  public:
+    // For renders with the renderer's estimator and features. The device must outlive it. Throws Error.
+    PathTracer(gpu::Device& device, const Renderer& renderer, const KernelSource& source = embeddedKernel);
+
+    // Whether its kernel is that of the renderer's estimator and features.
+    [[nodiscard]] bool serves(const Renderer& renderer) const;
+
+    // The path that sample number `sample` of `pixel` (from the top left) takes with the renderer's scene,
+    // camera and settings. The pixel must lie in the image, and the renderer be one that this serves.
+    [[nodiscard]] TracedPath trace(const Renderer& renderer, const glm::uvec2& pixel, uint32_t sample) const;
+
+  private:
+    gpu::Device* device_;
+    std::vector<gpu::SpecialisationConstant> constants_;
+    gpu::Kernel kernel_;
+};
+
+} // namespace lavalight

@@ -1,0 +1,44 @@
+#include "render/render_fingerprint.h"
+
+#include <string>
+#include <vector>
+
+#include "base/content_hash.h"
+
+namespace lavalight {
+
+namespace {
+
+template <typename... Values>
+std::string hashOf(const Values&... values) {
+    ContentHash hash;
+    (hash.add(std::vector<Values>{values}), ...);
+    return hash.text();
+}
+
+std::string shadersOf(const Renderer& renderer) {
+    ContentHash hash;
+    for (const auto& [name, kernel] : renderer.kernels().all()) {
+        hash.add(name);
+        hash.add(kernel.code().content);
+    }
+    hash.add(renderer.scene().albedoTable().kernelContent);
+    return hash.text();
+}
+
+} // namespace
+
+Fingerprints fingerprintsOf(const Renderer& renderer) {
+    const FrameParameters& f = renderer.frame();
+    Fingerprints parts = renderer.scene().fingerprints();
+    parts.emplace_back("environment",
+                       hashOf(f.environment, f.environmentLight, f.environmentRotation, f.environmentWidth,
+                              f.environmentHeight, f.firstLightColumn, f.lightColumns));
+    // cameraRight follows from the others and the image's size.
+    parts.emplace_back("view", hashOf(f.cameraPosition, f.projection, f.cameraUp, f.cameraForward,
+                                      f.lensRadius, f.focusDistance, f.sceneCenter, f.sceneRadius));
+    parts.emplace_back("shaders", shadersOf(renderer));
+    return parts;
+}
+
+} // namespace lavalight

@@ -1,0 +1,57 @@
+#include "session/ledger.h"
+
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace lavalight {
+
+std::vector<LedgerEntry> makeLedger(const Scene& scene, const RenderSettings& settings,
+                                    const FilmTallies& tallies, StopReason stop) {
+    std::vector<LedgerEntry> ledger;
+    const EstimatorSettings& estimator = settings.estimator;
+    if (!settings.changedShaders.empty())
+        ledger.push_back({"changed-shaders", fmt::format("{}", fmt::join(settings.changedShaders, ", "))});
+    if (std::isfinite(estimator.clampIndirect))
+        ledger.push_back(
+            {"clamp-indirect", fmt::format("indirect light was limited to {}", estimator.clampIndirect)});
+    if (!estimator.nextEventEstimation && !scene.punctualLights.empty())
+        ledger.push_back({"unreachable-lights", fmt::format("--nee off cannot find {} lights without size",
+                                                            scene.punctualLights.size())});
+    if (stop == StopReason::targetError)
+        ledger.push_back(
+            {"stopped-on-estimate", fmt::format("the error estimate reached {}", settings.targetError)});
+    if (scene.environmentMap && scene.environmentMap->badTexels > 0)
+        ledger.push_back(
+            {"environment-values",
+             fmt::format("{} texels of the environment map were negative or not finite, and are 0",
+                         scene.environmentMap->badTexels)});
+    if (!scene.ignoredExtensions.empty())
+        ledger.push_back({"ignored-extensions", fmt::format("{}", fmt::join(scene.ignoredExtensions, ", "))});
+    for (LedgerEntry& entry : tallyEntries(tallies))
+        ledger.push_back(std::move(entry));
+    return ledger;
+}
+
+namespace {
+
+std::string nameOfSolid(const Scene& scene, uint32_t number) {
+    constexpr uint32_t kBeyond = 0xffffu;
+    return number > 0 && number < kBeyond && number <= scene.meshes.size()
+               ? fmt::format("\"{}\"", scene.meshes[number - 1].name)
+               : "a mesh";
+}
+
+} // namespace
+
+std::string overlapText(const Scene& scene, const FilmTallies& tallies) {
+    return fmt::format(
+        "{} and {} overlap, or have holes (KHR_materials_volume): {} paths were within two such solids at "
+        "once, where neither medium is right; let solids touch, or leave a gap between them",
+        nameOfSolid(scene, tallies.overlapping[0]), nameOfSolid(scene, tallies.overlapping[1]),
+        tallies.overlaps);
+}
+
+} // namespace lavalight

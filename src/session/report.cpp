@@ -1,0 +1,162 @@
+#include "session/report.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "base/version.h"
+#include "render/setting_names.h"
+
+namespace lavalight {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double perSecond(uint64_t count, double seconds) {
+    return seconds > 0.0 ? static_cast<double>(count) / seconds : 0.0;
+}
+
+using Pairs = std::vector<std::pair<std::string, std::string>>;
+
+// Options that were given and the settings, under the names of their options.
+Pairs describeOptions(const RenderReport& report) {
+    Pairs pairs = describe(report.settings);
+    if (report.import.seconds)
+        pairs.emplace_back("at", fmt::format("{}", *report.import.seconds));
+    if (!report.import.animation.empty())
+        pairs.emplace_back("animation", report.import.animation);
+    return pairs;
+}
+
+Json pairsJson(const Pairs& pairs) {
+    Json json = Json::object();
+    for (const auto& [key, value] : pairs)
+        json[key] = value;
+    return json;
+}
+
+Json kernelsJson(const gpu::KernelTimes& kernels) {
+    Json json = Json::object();
+    for (const auto& [name, time] : kernels)
+        json[name] = {{"seconds", time.seconds}, {"dispatches", time.dispatches}};
+    return json;
+}
+
+Json stagesJson(const StageTimes& stages) {
+    Json json = Json::object();
+    for (const auto& [name, seconds] : stages)
+        json[name] = seconds;
+    return json;
+}
+
+Json raysJson(const RenderReport& report) {
+    return {{"camera", report.rays.camera},
+            {"indirect", report.rays.indirect},
+            {"shadow", report.rays.shadow},
+            {"perSecond", perSecond(report.rays.total(), report.renderSeconds)}};
+}
+
+// Sobol's samples are correlated, so that the film's variance overstates theirs.
+Json errorJson(const RenderReport& report) {
+    const double cost = report.meanVariance * report.renderSeconds;
+    return {{"meanVariance", report.meanVariance},
+            {"estimatedRelMse", report.errorEstimate},
+            {"isUpperBound", report.settings.estimator.sampler == Sampler::sobol},
+            {"efficiency", cost > 0.0 ? 1.0 / cost : 0.0}};
+}
+
+Json ledgerJson(const std::vector<LedgerEntry>& ledger) {
+    Json json = Json::array();
+    for (const LedgerEntry& entry : ledger)
+        json.push_back({{"cause", entry.cause}, {"detail", entry.detail}});
+    return json;
+}
+
+glm::dvec3 meanOf(const Image& image) {
+    glm::dvec3 sum(0.0);
+    for (const glm::vec3& pixel : image.pixels)
+        sum += glm::dvec3(pixel);
+    return sum / static_cast<double>(image.pixels.size());
+}
+
+uint64_t totalOf(const std::vector<uint32_t>& counts) {
+    uint64_t total = 0;
+    for (const uint32_t count : counts)
+        total += count;
+    return total;
+}
+
+} // namespace
+
+void fillInputs(RenderReport& report, const Scene& scene, const RenderSettings& settings) {
+    report.settings = settings;
+    report.scene = scene.source;
+    report.triangles = scene.triangleCount();
+    report.warnings = scene.warnings;
+}
+
+void fillResults(RenderReport& report, const Renderer& renderer, const gpu::Device& device,
+                 const Rendering& rendering, const Scene& scene) {
+    report.device = device.description();
+    report.content = fingerprintsOf(renderer);
+    report.kernels = renderer.waves().kernelTimes();
+    report.rays = renderer.waves().rays();
+    report.tallies = renderer.film().readTallies();
+    report.sceneBytes = renderer.scene().bytes();
+    report.peakDeviceBytes = device.peakAllocatedBytes();
+    report.samples = totalOf(rendering.sampleCounts);
+    report.meanRadiance = meanOf(rendering.radiance);
+    const glm::dvec3 variance = meanOf(rendering.variance);
+    report.meanVariance = (variance.x + variance.y + variance.z) / 3.0;
+    report.errorEstimate = errorEstimate(rendering);
+    report.ledger = makeLedger(scene, report.settings, report.tallies, report.stop);
+}
+
+Metadata exrMetadata(const RenderReport& report) {
+    Metadata metadata{{"version", std::string(kVersion)},
+                      {"scene", report.scene},
+                      {"camera", report.camera},
+                      {"device", report.device.name},
+                      {"driver", report.device.driver},
+                      {"samples-per-pixel", samplesPerPixel(report.samples, uint64_t{report.settings.width} *
+                                                                                report.settings.height)},
+                      {"render-seconds", fmt::format("{:.3f}", report.renderSeconds)},
+                      {"complete", report.stop == StopReason::interrupted ? "no, interrupted" : "yes"},
+                      {"bias-ledger", ledgerText(report.ledger)}};
+    for (const auto& [key, value] : describeOptions(report))
+        metadata.emplace_back("option:" + key, value);
+    for (const auto& [part, hash] : report.content)
+        metadata.emplace_back("content:" + part, hash);
+    return metadata;
+}
+
+std::string reportJson(const RenderReport& report) {
+    Json json;
+    json["version"] = kVersion;
+    json["scene"] = report.scene;
+    json["camera"] = report.camera;
+    json["triangles"] = report.triangles;
+    json["device"] = {{"name", report.device.name},
+                      {"driver", report.device.driver},
+                      {"type", report.device.type},
+                      {"api", report.device.apiVersion}};
+    json["settings"] = pairsJson(describeOptions(report));
+    if (report.tone)
+        json["png"] = {{"tonemap", nameOf(report.tone->curve)}, {"exposure", report.tone->exposure}};
+    json["waveSize"] = report.settings.waveSize;
+    json["complete"] = report.stop != StopReason::interrupted;
+    json["stoppedBy"] = nameOf(report.stop);
+    json["seconds"] = stagesJson(report.stages);
+    json["kernels"] = kernelsJson(report.kernels);
+    json["rays"] = raysJson(report);
+    json["samples"] = {{"total", report.samples},
+                       {"perSecond", perSecond(report.samples, report.renderSeconds)},
+                       {"dropped", report.tallies.droppedSamples}};
+    json["meanRadiance"] = {report.meanRadiance.x, report.meanRadiance.y, report.meanRadiance.z};
+    json["error"] = errorJson(report);
+    json["memory"] = {{"sceneBytes", report.sceneBytes}, {"peakDeviceBytes", report.peakDeviceBytes}};
+    json["ledger"] = ledgerJson(report.ledger);
+    json["warnings"] = report.warnings;
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+} // namespace lavalight

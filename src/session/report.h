@@ -1,0 +1,58 @@
+// What a render was and what it cost: the JSON report and the EXR header.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "gltf/import_options.h"
+#include "gpu/device.h"
+#include "image/exr.h"
+#include "render/render_fingerprint.h"
+#include "render/renderer.h"
+#include "render/settings.h"
+#include "render/tone_settings.h"
+#include "session/ledger.h"
+
+namespace lavalight {
+
+// Wall-clock seconds: of the stages, in order; then of parts of "prepare", which run side by side, and from
+// the start of the process to the end of the first wave.
+using StageTimes = std::vector<std::pair<std::string, double>>;
+
+struct RenderReport {
+    std::string scene;
+    ImportOptions import; // what of the scene was shown
+    std::string camera;
+    RenderSettings settings;
+    gpu::DeviceDescription device;
+    Fingerprints content; // of what was rendered
+    StageTimes stages;
+    double renderSeconds = 0.0;
+    gpu::KernelTimes kernels;
+    RayCounts rays;
+    uint64_t samples = 0; // over all pixels
+    FilmTallies tallies;
+    uint64_t sceneBytes = 0;
+    uint64_t peakDeviceBytes = 0;
+    uint64_t triangles = 0;
+    std::vector<LedgerEntry> ledger;
+    std::vector<std::string> warnings;
+    glm::dvec3 meanRadiance{0.0};
+    double meanVariance = 0.0;  // of the pixels' means, over pixels and channels
+    double errorEstimate = 0.0; // see errorEstimate()
+    StopReason stop = StopReason::samples;
+    std::optional<ToneSettings> tone; // of the PNG, if there is one
+};
+
+// What was asked for.
+void fillInputs(RenderReport& report, const Scene& scene, const RenderSettings& settings);
+// What came of it, with the ledger. `rendering` is the renderer's; the inputs are there already.
+void fillResults(RenderReport& report, const Renderer& renderer, const gpu::Device& device,
+                 const Rendering& rendering, const Scene& scene);
+
+[[nodiscard]] Metadata exrMetadata(const RenderReport& report);
+[[nodiscard]] std::string reportJson(const RenderReport& report);
+
+} // namespace lavalight

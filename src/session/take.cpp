@@ -1,0 +1,56 @@
+#include "session/take.h"
+
+#include <utility>
+
+#include "base/os/process_time.h"
+
+namespace lavalight {
+
+double Stopwatch::lap(const std::string& stage) {
+    const double seconds = sinceLap();
+    last_ = std::chrono::steady_clock::now();
+    stages_.emplace_back(stage, seconds);
+    return seconds;
+}
+
+double Stopwatch::sinceLap() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - last_).count();
+}
+
+void Take::describeInputs(const gpu::Device& device, const std::vector<std::string>& changedShaders) {
+    fillInputs(report, scene, renderer->settings());
+    report.settings.changedShaders = changedShaders;
+    report.device = device.description();
+    report.content = fingerprintsOf(*renderer);
+}
+
+void Take::takeSamples(const std::function<bool(double fraction)>& mayGoOn) {
+    report.stop = renderer->render([&](double fraction) {
+        if (!toFirstSamples)
+            toFirstSamples = secondsSinceProcessStart();
+        return mayGoOn(fraction);
+    });
+    report.renderSeconds = before.seconds + watch.lap("render");
+}
+
+FilmFile Take::film() const {
+    RenderReport now = report;
+    now.rays = renderer->waves().rays() + before.rays;
+    return recordFilm(*renderer, scene, std::move(now));
+}
+
+void Take::resumeFrom(Checkpoint& checkpoint) {
+    const std::optional<FilmFile> film = checkpoint.read();
+    if (!film)
+        return;
+    continueFilm(*renderer, *film, checkpoint.file(), report);
+    before = costOf(*film);
+}
+
+void Take::keep(Checkpoint& checkpoint) {
+    report.stop = StopReason::interrupted;
+    report.renderSeconds = before.seconds + watch.sinceLap();
+    checkpoint.write([&] { return film(); });
+}
+
+} // namespace lavalight

@@ -1,0 +1,168 @@
+// `lavalight merge` and render --samples: the bits of one render, or a line that says what is in the way.
+#include <algorithm>
+#include <map>
+
+#include <gtest/gtest.h>
+
+#include "base/file.h"
+#include "support/film_files.h"
+#include "support/run_program.h"
+#include "support/same_image.h"
+#include "support/temporary_folder.h"
+#include "unit/gltf/builder.h"
+
+namespace lavalight {
+namespace {
+
+using test::expectSameImage;
+using test::GltfBuilder;
+using test::ProgramResult;
+using test::runLavalight;
+using test::TemporaryFolder;
+
+constexpr int kFailed = 1;
+constexpr int kWrongUsage = 2;
+
+class Merge : public testing::Test {
+  protected:
+    [[nodiscard]] ProgramResult run(const std::vector<std::string>& arguments) const {
+        return runLavalight(arguments, folder_.path());
+    }
+    void render(const std::string& samples, const std::string& file,
+                const std::vector<std::string>& more = {}, const std::string& scene = "cornell-box") const {
+        std::vector<std::string> arguments{"render", scene,     "--size", size_, "--samples",
+                                           samples,  "--quiet", "-o",     file};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const ProgramResult result = run(arguments);
+        ASSERT_EQ(result.exitCode, 0) << result.err;
+    }
+    void merge(std::vector<std::string> parts, const std::string& file) const {
+        parts.insert(parts.begin(), "merge");
+        parts.insert(parts.end(), {"-o", file});
+        const ProgramResult result = run(parts);
+        ASSERT_EQ(result.exitCode, 0) << result.err;
+    }
+    void expectRefusal(std::vector<std::string> arguments, int exitCode, const std::string& part) const {
+        const long filesBefore = folder_.count();
+        const ProgramResult result = run(arguments);
+        EXPECT_EQ(result.exitCode, exitCode) << result.err;
+        EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+        EXPECT_NE(result.err.find(part), std::string::npos) << result.err;
+        EXPECT_EQ(folder_.count(), filesBefore) << "a file was left behind";
+    }
+    void expectUnmergeable(const std::string& a, const std::string& b, const std::string& part) const {
+        expectRefusal({"merge", a, b, "-o", "out.exr"}, kFailed, part);
+    }
+    [[nodiscard]] std::filesystem::path at(const std::string& name) const { return folder_ / name; }
+
+    const TemporaryFolder folder_;
+    std::string size_ = "20x15";
+};
+
+TEST_F(Merge, PartsHaveTheBitsOfOneRender) {
+    // Paths that are cut, so that the ledger has something to add up.
+    const std::vector<std::string> cut{"--max-bounces", "2"};
+    render("0:20", "whole.exr", cut);
+    render("0:3", "a.exr", cut);
+    render("3:16", "b.exr", {"--max-bounces", "2", "--wave-size", "1000", "--band-rows", "4"});
+    render("16:20", "c.exr", cut);
+    merge({"a.exr", "b.exr", "c.exr"}, "abc.exr");
+    expectSameImage(at("abc.exr"), at("whole.exr"));
+    merge({"c.exr", "a.exr"}, "ca.exr");
+    EXPECT_EQ(textOf(readFilmFile(at("ca.exr")).ranges), "0:3,16:20");
+    merge({"b.exr", "ca.exr"}, "bca.exr");
+    expectSameImage(at("bca.exr"), at("whole.exr"));
+    EXPECT_NE(valueOf(readExr(at("bca.exr")).metadata, "bias-ledger").find("cut-paths"), std::string::npos);
+}
+
+TEST_F(Merge, OtherSamplersAndKernelsTheSame) {
+    const std::vector<std::string> other{"--sampler", "independent", "--kernels", "wavefront"};
+    render("5:12", "whole.exr", other, "cornell-glass");
+    render("5:6", "a.exr", other, "cornell-glass");
+    render("6:12", "b.exr", other, "cornell-glass");
+    merge({"b.exr", "a.exr"}, "ba.exr");
+    expectSameImage(at("ba.exr"), at("whole.exr"));
+}
+
+TEST_F(Merge, SamplesFromZeroAreThoseOfAnOrdinaryRender) {
+    render("0:4", "a.exr");
+    const ProgramResult result = run({"render", "--size", "20x15", "--spp", "4", "--quiet", "-o", "b.exr"});
+    ASSERT_EQ(result.exitCode, 0) << result.err;
+    EXPECT_EQ(readExr(at("a.exr")).radiance.pixels, readExr(at("b.exr")).radiance.pixels);
+    expectUnmergeable("a.exr", "b.exr", "b.exr: it holds no exact film");
+}
+
+TEST_F(Merge, GapsAreToldAndRecorded) {
+    render("0:2", "a.exr");
+    render("4:6", "b.exr");
+    const ProgramResult result = run({"merge", "a.exr", "b.exr", "-o", "ab.exr"});
+    EXPECT_EQ(result.exitCode, 0);
+    EXPECT_NE(result.err.find("0:2,4:6"), std::string::npos) << result.err;
+    EXPECT_NE(result.out.find("0:2,4:6"), std::string::npos) << result.out;
+    EXPECT_EQ(valueOf(readExr(at("ab.exr")).metadata, "option:spp"), "4");
+}
+
+TEST_F(Merge, RefusesWhatIsNotOfOneImage) {
+    render("0:2", "a.exr");
+    render("1:3", "overlap.exr");
+    expectUnmergeable("a.exr", "overlap.exr", "both hold the samples 1:2");
+    expectUnmergeable("a.exr", "a.exr", "both hold the samples 0:2");
+    render("2:4", "seed.exr", {"--seed", "1"});
+    expectUnmergeable("a.exr", "seed.exr", "--seed (0 in a.exr, 1 in seed.exr)");
+    render("2:4", "kernels.exr", {"--kernels", "wavefront"});
+    expectUnmergeable("a.exr", "kernels.exr", "--kernels (fused in a.exr, wavefront in kernels.exr)");
+    render("2:4", "scene.exr", {}, "cornell-glass");
+    expectUnmergeable("a.exr", "scene.exr", "scene (cornell-box in a.exr, cornell-glass in scene.exr)");
+    render("2:4", "view.exr", {"--fov", "30"});
+    expectUnmergeable("a.exr", "view.exr", "--fov (none in a.exr, 30 in view.exr)");
+    render("2:4", "env.exr", {"--env", "1,1,1"});
+    expectUnmergeable("a.exr", "env.exr", "--env (none in a.exr, 1,1,1 in env.exr)");
+    size_ = "20x16";
+    render("2:4", "size.exr");
+    expectUnmergeable("a.exr", "size.exr", "--size (20x15 in a.exr, 20x16 in size.exr)");
+}
+
+TEST_F(Merge, RefusesWhatIsNoFilm) {
+    render("0:2", "a.exr");
+    expectUnmergeable("a.exr", "none.exr", "none.exr: no such file");
+    writeFileAtomically(at("text.exr"), "This is a text.\n");
+    expectUnmergeable("a.exr", "text.exr", "text.exr");
+    const std::string bytes = readFile(at("a.exr"));
+    writeFileAtomically(at("cut.exr"), bytes.substr(0, bytes.size() / 2));
+    expectUnmergeable("a.exr", "cut.exr", "cut.exr");
+    expectRefusal({"merge", "a.exr", "a.exr", "-o", "none/out.exr"}, kFailed, "none/out.exr");
+}
+
+// A scene of the same name with another picture, buffer or number in it is another scene; the same scene
+// under another name is not.
+TEST_F(Merge, WhatASceneHoldsCountsAndNotItsName) {
+    GltfBuilder gltf;
+    gltf.addNode({{"mesh", gltf.addTriangle()}});
+    gltf.json["scenes"] = {{{"nodes", {0}}}};
+    gltf.json["scene"] = 0;
+    writeFileAtomically(at("a.glb"), gltf.glb());
+    writeFileAtomically(at("b.glb"), gltf.glb());
+    render("0:2", "a.exr", {}, "a.glb");
+    render("2:4", "b.exr", {}, "b.glb");
+    merge({"a.exr", "b.exr"}, "ab.exr");
+    float x = 0.25f;
+    gltf.bytes.replace(0, sizeof x, reinterpret_cast<const char*>(&x), sizeof x);
+    writeFileAtomically(at("a.glb"), gltf.glb());
+    render("2:4", "c.exr", {"--look-from", "0,0,5", "--look-at", "0,0,0"}, "b.glb");
+    render("4:6", "d.exr", {"--look-from", "0,0,5", "--look-at", "0,0,0"}, "a.glb");
+    expectUnmergeable("c.exr", "d.exr", "geometry (content ");
+}
+
+TEST_F(Merge, UsageThatCannotBeMeant) {
+    render("0:2", "a.exr");
+    expectRefusal({"merge", "a.exr", "-o", "out.exr"}, kWrongUsage, "give two or more");
+    expectRefusal({"merge", "a.exr", "a.exr"}, kWrongUsage, "--output");
+    expectRefusal({"merge", "-o", "out.exr"}, kWrongUsage, "parts");
+    for (const char* samples : {"1", "2:1", "1:1", "a:b", "-1:2", "0:4,8:12", "0:4294967296"})
+        expectRefusal({"render", std::string("--samples=") + samples}, kWrongUsage, "--samples");
+    for (const char* option : {"--spp", "--time", "--target-error"})
+        expectRefusal({"render", "--samples", "0:2", option, "1"}, kWrongUsage, option);
+}
+
+} // namespace
+} // namespace lavalight

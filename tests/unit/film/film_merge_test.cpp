@@ -1,0 +1,105 @@
+// What may be joined, and what is in the way where two films may not.
+#include <gtest/gtest.h>
+
+#include "film/film_identity.h"
+#include "film/film_merge.h"
+#include "support/film_files.h"
+
+namespace lavalight {
+namespace {
+
+using test::errorOf;
+using test::someFilm;
+
+NamedFilm named(const std::string& name, const FilmFile& file) {
+    return {name, file};
+}
+
+std::string refusalOf(const FilmFile& a, const FilmFile& b) {
+    return errorOf([&] {
+        NamedFilm sum = named("a.exr", a);
+        join(sum, named("b.exr", b));
+    });
+}
+
+TEST(FilmMerge, SamplesTalliesSecondsAndLedgerAreThoseOfBoth) {
+    NamedFilm sum = named("a.exr", someFilm(1, {0, 8}));
+    join(sum, named("b.exr", someFilm(2, {8, 24})));
+    RawFilm expected = someFilm(1, {}).film;
+    add(expected, someFilm(2, {}).film);
+    const FilmFile& file = sum.file;
+    EXPECT_EQ(file.film.words, expected.words);
+    EXPECT_EQ(textOf(file.ranges), "0:24");
+    EXPECT_TRUE(file.isComplete());
+    EXPECT_EQ(valueOf(file.metadata, "option:spp"), "24");
+    EXPECT_EQ(valueOf(file.metadata, "option:first-sample"), "0");
+    EXPECT_EQ(valueOf(file.metadata, "render-seconds"), "3.000");
+    EXPECT_EQ(valueOf(file.metadata, "bias-ledger"),
+              "clamp-indirect: 5; cut-paths: 6 paths ended by --max-bounces, mean throughput 0.5; "
+              "dropped-samples: 2 samples were not finite");
+}
+
+TEST(FilmMerge, OrderAndGroupingChangeNothing) {
+    const std::vector<FilmFile> parts{someFilm(1, {0, 8}), someFilm(2, {8, 24}), someFilm(3, {40, 41})};
+    NamedFilm first = named("1", parts[0]);
+    join(first, named("2", parts[1]));
+    join(first, named("3", parts[2]));
+    NamedFilm last = named("3", parts[2]);
+    join(last, named("1", parts[0]));
+    NamedFilm second = named("2", parts[1]);
+    join(second, last);
+    EXPECT_EQ(first.file.film.words, second.file.film.words);
+    EXPECT_EQ(first.file.film.tallies, second.file.film.tallies);
+    EXPECT_EQ(textOf(second.file.ranges), "0:24,40:41");
+    EXPECT_EQ(valueOf(first.file.metadata, "bias-ledger"), valueOf(second.file.metadata, "bias-ledger"));
+}
+
+TEST(FilmMerge, CommonSamplesAreNamed) {
+    EXPECT_EQ(refusalOf(someFilm(1, {0, 8}), someFilm(2, {6, 24})),
+              "cannot merge b.exr with a.exr: both hold the samples 6:8");
+}
+
+TEST(FilmMerge, WhatDiffersIsNamedWithBothValues) {
+    const auto refusalWith = [](const std::string& key, const std::string& value) {
+        FilmFile other = someFilm(2, {8, 16});
+        setValue(other.metadata, key, value);
+        return refusalOf(someFilm(1, {0, 8}), other);
+    };
+    EXPECT_EQ(refusalWith("option:seed", "7"),
+              "cannot merge b.exr with a.exr: they differ in --seed (0 in a.exr, 7 in b.exr)");
+    EXPECT_EQ(refusalWith("option:new", "1"),
+              "cannot merge b.exr with a.exr: they differ in --new (none in a.exr, 1 in b.exr)");
+    for (const char* key : {"version", "device", "driver"})
+        EXPECT_NE(refusalWith(key, "other").find(std::string("they differ in ") + key), std::string::npos);
+    EXPECT_NE(refusalWith("content:textures", "ffff0000ffff")
+                  .find("textures (content 01234567 in a.exr, content ffff0000 in b.exr)"),
+              std::string::npos);
+}
+
+// Files may be renamed and moved; their content has its own keys.
+TEST(FilmMerge, NamesCountOnlyWhereContentDiffers) {
+    FilmFile other = someFilm(2, {8, 16});
+    setValue(other.metadata, "scene", "copy.gltf");
+    setValue(other.metadata, "option:env", "copy.hdr");
+    EXPECT_EQ(refusalOf(someFilm(1, {0, 8}), other), "");
+    setValue(other.metadata, "content:textures", "f");
+    EXPECT_NE(refusalOf(someFilm(1, {0, 8}), other).find("scene (box.gltf in a.exr, copy.gltf in b.exr)"),
+              std::string::npos);
+}
+
+TEST(FilmMerge, FilmsThatLackSamplesAreTold) {
+    FilmFile part = someFilm(2, {8, 16});
+    part.progress = {4, 2, 3};
+    EXPECT_NE(refusalOf(someFilm(1, {0, 8}), part).find("cannot merge b.exr: its render was interrupted"),
+              std::string::npos);
+    EXPECT_NE(refusalOf(part, someFilm(1, {0, 8})).find("cannot merge a.exr"), std::string::npos);
+}
+
+TEST(FilmMerge, FilmsOfOtherSizesAreRefused) {
+    FilmFile other = someFilm(2, {8, 16});
+    std::swap(other.film.width, other.film.height);
+    EXPECT_NE(refusalOf(someFilm(1, {0, 8}), other).find("differ in size"), std::string::npos);
+}
+
+} // namespace
+} // namespace lavalight

@@ -1,0 +1,182 @@
+// Runs the import over the real and the malformed files that LAVALIGHT_ASSETS points to.
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <sstream>
+
+#include <gtest/gtest.h>
+
+#include "base/error.h"
+#include "gltf/import.h"
+#include "support/sound_scene.h"
+
+namespace lavalight::test {
+namespace {
+
+class Assets : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        const char* folder = std::getenv("LAVALIGHT_ASSETS");
+        if (folder == nullptr)
+            GTEST_SKIP() << "LAVALIGHT_ASSETS is not set: no assets to import";
+        folder_ = folder;
+    }
+
+    std::filesystem::path folder_;
+};
+
+// "load", or the message.
+std::string importResult(const std::filesystem::path& path) {
+    try {
+        static_cast<void>(importGltf(path));
+        return "load";
+    } catch (const Error& error) {
+        return error.what();
+    }
+}
+
+void expectNear(const glm::vec3& a, const glm::vec3& b) {
+    EXPECT_NEAR(glm::length(a - b), 0.0f, 1e-5f) << a.x << " " << a.y << " " << a.z;
+}
+
+TEST_F(Assets, GeneratedMalformedFilesLoadOrFailAsTheirManifestSays) {
+    const std::filesystem::path generated = folder_ / "invalid" / "generated";
+    std::ifstream manifest(generated / "MANIFEST.tsv");
+    ASSERT_TRUE(manifest);
+    std::string line;
+    std::getline(manifest, line); // the header
+    int files = 0;
+    while (std::getline(manifest, line)) {
+        std::istringstream columns(line);
+        std::string name;
+        std::string expected;
+        std::getline(columns, name, '\t');
+        std::getline(columns, expected, '\t');
+        const std::filesystem::path path = generated / name;
+        if (path.extension() != ".gltf" && path.extension() != ".glb")
+            continue; // environment maps
+        ++files;
+        const std::string result = importResult(path);
+        if (expected == "load") {
+            EXPECT_EQ(result, "load") << line;
+        } else if (expected == "error") {
+            EXPECT_NE(result, "load") << line;
+        }
+        EXPECT_EQ(result.find('\n'), std::string::npos) << line;
+    }
+    EXPECT_GT(files, 60);
+}
+
+TEST_F(Assets, RealScenesLoadOrNameTheFeatureThatTheyRequire) {
+    // Against the specification, or for a reader of glTF 2.1, which they exist to test.
+    const std::map<std::string, std::string> refused = {
+        {"cube_att.gltf", "is a child of both"},
+        {"Compatibility_04.gltf", "it needs a reader of glTF 2.1"},
+        {"MeshoptCubeTest.gltf", "(KHR_meshopt_compression) uses the filter \"COLOR\""}};
+    int files = 0;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder_)) {
+        const std::filesystem::path& path = entry.path();
+        const bool isScene = path.extension() == ".gltf" || path.extension() == ".glb";
+        if (!isScene || path.string().find("/invalid/") != std::string::npos)
+            continue;
+        ++files;
+        try {
+            EXPECT_EQ(unsoundPart(importGltf(path)), "") << path;
+        } catch (const Error& error) {
+            const auto reason = refused.find(path.filename().string());
+            const std::string expected =
+                reason == refused.end() ? "it requires the extension" : reason->second;
+            EXPECT_NE(std::string(error.what()).find(expected), std::string::npos) << error.what();
+        }
+    }
+    EXPECT_GT(files, 100);
+}
+
+TEST_F(Assets, AnimatedScenesAreSoundAtEveryTime) {
+    int animated = 0;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder_)) {
+        const std::filesystem::path& path = entry.path();
+        const bool isScene = path.extension() == ".gltf" || path.extension() == ".glb";
+        if (!isScene || path.string().find("/invalid/") != std::string::npos ||
+            importResult(path) != "load" || importGltf(path).animations.empty())
+            continue;
+        ++animated;
+        const Scene still = importGltf(path);
+        for (size_t i = 0; i < still.animations.size(); ++i) {
+            const double seconds = 0.37 * static_cast<double>(still.animations[i].seconds);
+            const Scene scene = importGltf(path, {.seconds = seconds, .animation = std::to_string(i)});
+            EXPECT_EQ(unsoundPart(scene), "") << path;
+            EXPECT_GT(2 * scene.triangleCount() + 1, still.triangleCount()) << path;
+        }
+    }
+    EXPECT_GT(animated, 30);
+}
+
+TEST_F(Assets, LampHasItsFivePointLights) {
+    const Scene scene = importGltf(folder_ / "LightsPunctualLamp/glTF/LightsPunctualLamp.gltf");
+    ASSERT_EQ(scene.punctualLights.size(), 5u);
+    const PunctualLight& first = scene.punctualLights[0];
+    EXPECT_EQ(first.name, "Point");
+    EXPECT_EQ(first.kind, PunctualKind::point);
+    expectNear(first.intensity, 15.0f * glm::vec3(1.0f, 0.63187498f, 0.23909976f));
+    EXPECT_TRUE(std::any_of(scene.materials.begin(), scene.materials.end(), [](const Material& material) {
+        return material.transmission == 1.0f && !material.isSolid; // a shade, not a body
+    }));
+}
+
+TEST_F(Assets, FourSpotLightsShineTheWaysThatTheirNamesSay) {
+    const Scene scene = importGltf(folder_ / "SpotLights/four_spotlights.glb");
+    ASSERT_EQ(scene.punctualLights.size(), 4u);
+    const glm::vec3 ways[] = {{0, -1, 0}, {0, 1, 0}, {1, 0, 0}, {0, 0, -1}}; // Blender's z is glTF's y
+    for (size_t i = 0; i < 4; ++i) {
+        const PunctualLight& light = scene.punctualLights[i];
+        EXPECT_EQ(light.kind, PunctualKind::spot);
+        expectNear(light.direction, ways[i]);
+        expectNear(light.position, {0, 1, 0});
+        EXPECT_FLOAT_EQ(light.intensity.x, 54351.41306588226f);
+        EXPECT_FLOAT_EQ(light.outerConeAngle, 0.6544984579086304f);
+    }
+}
+
+TEST_F(Assets, SphereIsLitByOneLightOfEachKindAndASpotOfDefaults) {
+    const Scene scene = importGltf(folder_ / "draco-testdata/sphere_lights.gltf");
+    ASSERT_EQ(scene.punctualLights.size(), 4u); // in the order of the nodes
+    EXPECT_EQ(scene.punctualLights[0].kind, PunctualKind::spot);
+    EXPECT_EQ(scene.punctualLights[0].name, "Blue Lightsaber");
+    EXPECT_EQ(scene.punctualLights[1].kind, PunctualKind::directional);
+    expectNear(scene.punctualLights[1].intensity, glm::vec3(0.9f));
+    EXPECT_EQ(scene.punctualLights[2].kind, PunctualKind::spot);
+    EXPECT_EQ(scene.punctualLights[2].intensity, glm::vec3(1.0f));
+    EXPECT_EQ(scene.punctualLights[3].kind, PunctualKind::point);
+}
+
+TEST_F(Assets, SunIsOfUnitDirectionAndEndsTheStandInForLight) {
+    const Scene scene = importGltf(folder_ / "Classroom-Bitterli/Classroom-Bitterli.glb");
+    ASSERT_EQ(scene.punctualLights.size(), 1u);
+    EXPECT_EQ(scene.punctualLights[0].kind, PunctualKind::directional);
+    expectNear(scene.punctualLights[0].direction, {0.8658039f, -0.4167660f, 0.2769290f});
+    EXPECT_EQ(scene.environment, glm::vec3(0.0f));
+}
+
+TEST_F(Assets, ExtensionDeclaredWithoutLightsIsTolerated) {
+    const Scene scene = importGltf(folder_ / "CornellBox-nvpro/cornellBox.gltf");
+    EXPECT_TRUE(scene.punctualLights.empty());
+    EXPECT_EQ(scene.ignoredExtensions, std::vector<std::string>{"NV_materials_mdl"});
+}
+
+TEST_F(Assets, GlassOfTheLivingRoomIsSolidAndClear) {
+    const Scene scene = importGltf(folder_ / "LivingRoom-Bitterli/LivingRoom-Bitterli.glb");
+    const Material& glass = scene.materials.at(14);
+    EXPECT_EQ(glass.transmission, 1.0f);
+    EXPECT_TRUE(glass.isSolid);
+    EXPECT_EQ(std::count_if(scene.materials.begin(), scene.materials.end(),
+                            [](const Material& material) { return material.isSolid; }),
+              1);
+    for (const std::string& warning : scene.warnings)
+        EXPECT_EQ(warning.find("attenuation"), std::string::npos) << warning;
+}
+
+} // namespace
+} // namespace lavalight::test

@@ -1,0 +1,162 @@
+// Ledger, JSON report and EXR header of a render.
+#include <map>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "session/report.h"
+
+namespace lavalight {
+namespace {
+
+using Json = nlohmann::json;
+
+TEST(Ledger, UnbiasedImageHasNoEntry) {
+    const auto ledger = makeLedger(Scene(), RenderSettings(), FilmTallies(), StopReason::samples);
+    EXPECT_TRUE(ledger.empty());
+    EXPECT_EQ(ledgerText(ledger), "none");
+}
+
+TEST(Ledger, NamesEveryCauseWithItsFigures) {
+    Scene scene;
+    scene.ignoredExtensions = {"KHR_a", "EXT_b"};
+    scene.meshes.resize(2);
+    scene.meshes[1].name = "ice";
+    const FilmTallies tallies{11, 22, 33, 0.25, 44, {2, 65535}};
+    const auto ledger = makeLedger(scene, RenderSettings(), tallies, StopReason::samples);
+    ASSERT_EQ(ledger.size(), 5u);
+    const std::map<std::string, std::string> figures{{"dropped-samples", "11"},
+                                                     {"saturated-sums", "22"},
+                                                     {"cut-paths", "33"},
+                                                     {"overlapping-solids", "44 paths"},
+                                                     {"ignored-extensions", "KHR_a, EXT_b"}};
+    for (const LedgerEntry& entry : ledger)
+        EXPECT_NE(entry.detail.find(figures.at(entry.cause)), std::string::npos)
+            << entry.cause << ": " << entry.detail;
+    EXPECT_TRUE(overlapText(scene, tallies).starts_with("\"ice\" and a mesh overlap"));
+    const std::string text = ledgerText(ledger);
+    EXPECT_NE(text.find("0.25"), std::string::npos) << text;
+    EXPECT_NE(text.find("; "), std::string::npos) << text;
+    EXPECT_EQ(text.find('\n'), std::string::npos) << text;
+}
+
+TEST(Ledger, OneCauseIsOneEntry) {
+    FilmTallies tallies;
+    tallies.droppedSamples = 3;
+    const auto ledger = makeLedger(Scene(), RenderSettings(), tallies, StopReason::samples);
+    ASSERT_EQ(ledger.size(), 1u);
+    EXPECT_EQ(ledgerText(ledger), ledger.front().cause + ": " + ledger.front().detail);
+}
+
+// What was asked for that biases the image, and lights that a setting cannot reach.
+TEST(Ledger, NamesBiasedSettings) {
+    Scene scene;
+    scene.punctualLights.resize(2);
+    RenderSettings settings;
+    settings.estimator.clampIndirect = 7.5f;
+    settings.estimator.nextEventEstimation = false;
+    settings.targetError = 0.125;
+    const std::string text = ledgerText(makeLedger(scene, settings, FilmTallies(), StopReason::targetError));
+    EXPECT_NE(text.find("clamp-indirect: indirect light was limited to 7.5"), std::string::npos) << text;
+    EXPECT_NE(text.find("unreachable-lights: --nee off cannot find 2"), std::string::npos) << text;
+    EXPECT_NE(text.find("stopped-on-estimate: the error estimate reached 0.125"), std::string::npos) << text;
+    EXPECT_EQ(makeLedger(scene, RenderSettings(), FilmTallies(), StopReason::time).size(), 0u);
+}
+
+RenderReport exampleReport() {
+    RenderReport report;
+    report.scene = "some \"scene\".gltf";
+    report.camera = "cam\xff"; // no valid UTF-8
+    report.settings.width = 20;
+    report.settings.height = 10;
+    report.settings.samples = 6;
+    report.device.name = "device";
+    report.device.driver = "driver 1.2";
+    report.device.type = "CPU";
+    report.device.apiVersion = "1.3.0";
+    report.stages = {{"load", 0.5}, {"render", 2.0}};
+    report.renderSeconds = 2.0;
+    report.kernels["shade"] = {1.25, 65};
+    report.rays = {100, 200, 300};
+    report.samples = 1200;
+    report.sceneBytes = 5000;
+    report.peakDeviceBytes = 6000;
+    report.triangles = 32;
+    report.ledger = {{"cut-paths", "4 paths"}};
+    report.warnings = {"first", "second"};
+    report.meanRadiance = {0.1, 0.2, 0.3};
+    return report;
+}
+
+TEST(Report, IsJsonWithWhatTheRenderWasAndCost) {
+    const Json json = Json::parse(reportJson(exampleReport()));
+    EXPECT_EQ(json.at("scene"), "some \"scene\".gltf");
+    EXPECT_EQ(json.at("triangles"), 32);
+    EXPECT_EQ(json.at("device").at("name"), "device");
+    EXPECT_EQ(json.at("device").at("driver"), "driver 1.2");
+    EXPECT_EQ(json.at("settings").at("spp"), "6");
+    EXPECT_EQ(json.at("complete"), true);
+    EXPECT_EQ(json.at("seconds").at("load"), 0.5);
+    EXPECT_EQ(json.at("kernels").at("shade").at("seconds"), 1.25);
+    EXPECT_EQ(json.at("kernels").at("shade").at("dispatches"), 65);
+    EXPECT_EQ(json.at("rays").at("camera"), 100);
+    EXPECT_EQ(json.at("rays").at("indirect"), 200);
+    EXPECT_EQ(json.at("rays").at("shadow"), 300);
+    EXPECT_EQ(json.at("rays").at("perSecond"), 300.0);
+    EXPECT_EQ(json.at("samples").at("total"), 1200);
+    EXPECT_EQ(json.at("samples").at("perSecond"), 600.0);
+    EXPECT_EQ(json.at("samples").at("dropped"), 0);
+    EXPECT_EQ(json.at("memory").at("sceneBytes"), 5000);
+    EXPECT_EQ(json.at("memory").at("peakDeviceBytes"), 6000);
+    EXPECT_EQ(json.at("meanRadiance"), Json::array({0.1, 0.2, 0.3}));
+    EXPECT_EQ(json.at("ledger"), Json::array({{{"cause", "cut-paths"}, {"detail", "4 paths"}}}));
+    EXPECT_EQ(json.at("warnings"), Json::array({"first", "second"}));
+    EXPECT_TRUE(json.contains("version"));
+    EXPECT_TRUE(json.contains("camera"));
+    EXPECT_TRUE(json.contains("waveSize"));
+}
+
+TEST(Report, RenderOfNoTimeHasNoInfiniteRates) {
+    RenderReport report = exampleReport();
+    report.renderSeconds = 0.0;
+    const Json json = Json::parse(reportJson(report));
+    EXPECT_EQ(json.at("rays").at("perSecond"), 0.0);
+    EXPECT_EQ(json.at("samples").at("perSecond"), 0.0);
+}
+
+std::map<std::string, std::string> headerOf(const RenderReport& report) {
+    const Metadata metadata = exrMetadata(report);
+    std::map<std::string, std::string> map(metadata.begin(), metadata.end());
+    EXPECT_EQ(map.size(), metadata.size()) << "a key is there twice";
+    return map;
+}
+
+TEST(ExrHeader, SaysHowTheImageCameToBe) {
+    const auto header = headerOf(exampleReport());
+    EXPECT_EQ(header.at("scene"), "some \"scene\".gltf");
+    EXPECT_EQ(header.at("device"), "device");
+    EXPECT_EQ(header.at("driver"), "driver 1.2");
+    EXPECT_EQ(header.at("samples-per-pixel"), "6");
+    EXPECT_EQ(header.at("render-seconds"), "2.000");
+    EXPECT_EQ(header.at("complete"), "yes");
+    EXPECT_EQ(header.at("bias-ledger"), "cut-paths: 4 paths");
+    EXPECT_EQ(header.count("camera"), 1u);
+    EXPECT_EQ(header.count("version"), 1u);
+    for (const auto& [name, value] : describe(exampleReport().settings))
+        EXPECT_EQ(header.at("option:" + name), value);
+}
+
+TEST(ExrHeader, InterruptedRenderSaysSoWithItsOwnSampleCount) {
+    RenderReport report = exampleReport();
+    report.stop = StopReason::interrupted;
+    report.samples = 300;
+    const auto header = headerOf(report);
+    EXPECT_EQ(header.at("complete"), "no, interrupted");
+    EXPECT_EQ(header.at("samples-per-pixel"), "1.5");
+    EXPECT_EQ(header.at("option:spp"), "6");
+    EXPECT_EQ(Json::parse(reportJson(report)).at("complete"), false);
+}
+
+} // namespace
+} // namespace lavalight
