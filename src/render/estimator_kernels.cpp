@@ -48,14 +48,20 @@ std::vector<std::string> EstimatorKernels::changed(const KernelSource& source) c
     return names;
 }
 
-void EstimatorKernels::reload(gpu::Device& device, const KernelSource& source) {
-    std::map<std::string, gpu::Kernel, std::less<>> fresh;
+KernelMap EstimatorKernels::compileChanged(gpu::Device& device, const KernelSource& source) const {
+    KernelMap fresh;
     std::vector<const gpu::Kernel*> made;
     for (const std::string& name : changed(source))
         made.push_back(&fresh.try_emplace(name, device, source(name), constants_).first->second);
-    gpu::warmUp(device, made);
-    for (auto& [name, kernel] : fresh)
-        kernels_.insert_or_assign(name, std::move(kernel));
+    if (!made.empty())
+        gpu::warmUp(device, made);
+    return fresh;
+}
+
+void EstimatorKernels::replace(KernelMap compiled) noexcept {
+    for (const auto& [name, kernel] : compiled)
+        kernels_.erase(name);
+    kernels_.merge(compiled); // kernels stay at their addresses, which bound ones know
 }
 
 bool EstimatorKernels::serve(Schedule schedule, const EstimatorSettings& settings, uint32_t features) const {
