@@ -310,7 +310,7 @@ FilmProgress Renderer::progress() const {
 }
 
 void Renderer::continueFrom(const FilmProgress& progress, const RawFilm& film) {
-    assert(progress.passSamples <= settings_.waveSize);
+    assert(progress.passSamples <= settings_.work.waveSize);
     filmIsEmptied_ = false;
     position_ = {};
     film_.restore(film);

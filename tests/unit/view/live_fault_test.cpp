@@ -25,9 +25,9 @@ LiveRequest smallRequest(Kernels kernels) {
     LiveRequest request;
     request.scene = std::make_shared<const Scene>(loadScene("cornell-box"));
     request.camera = request.scene->cameras.front();
-    request.settings.width = 8;
-    request.settings.height = 6;
-    request.settings.samples = 2;
+    request.settings.image.width = 8;
+    request.settings.image.height = 6;
+    request.settings.stop.samples = 2;
     request.settings.waveSize = 4096;
     request.settings.estimator.maxBounces = 4;
     request.settings.kernels = kernels;
@@ -94,8 +94,8 @@ TEST_F(LiveFault, AnyCallOfAMoveMayFail) {
 TEST_F(LiveFault, AnyCallOfAChangeOfSizeMayFail) {
     const LiveRequest shown = smallRequest(Kernels::fused);
     LiveRequest larger = shown;
-    larger.settings.width += 3;
-    larger.settings.height += 2;
+    larger.settings.image.width += 3;
+    larger.settings.image.height += 2;
     expectEveryCallMayFail(shown, larger);
 }
 
