@@ -8,8 +8,8 @@
 
 layout(constant_id = CONSTANT_FEATURES) const uint kFeatures = kAllFeatures;
 
-// A macro: a constant by itself, where a function's result would pass through a variable, so that what it guards goes
-// early.
+// sceneHas() is a macro, and so a constant by itself, where a function's result would pass through a variable: what it guards
+// goes early.
 #define sceneHas(feature) ((kFeatures & (feature)) != 0u)
 
 #endif

@@ -7,7 +7,7 @@
 //         '---+---' B  |
 //             '--------'
 //
-// Only leaving says so. Where solids touch, a path meets but one of the two surfaces, and where a mesh has a hole it leaves
+// Only leaving shows that. Where solids touch, a path meets but one of the two surfaces, and where a mesh has a hole it leaves
 // unseen: either way it enters B with A in mind, but does not come to leave A without having entered it once more, unless it
 // turns back within B.
 #include "shared/wavefront.h"
@@ -29,7 +29,7 @@ SolidsSeen leaveSolid(SolidsSeen seen, uint solid, bool throughBoth) {
     return left;
 }
 
-// After the path has been reflected.
+// What has been seen once the path is reflected.
 SolidsSeen turnAmongSolids(SolidsSeen seen) {
     SolidsSeen after = seen;
     if (seen.state == kSolidsNested)
@@ -37,7 +37,7 @@ SolidsSeen turnAmongSolids(SolidsSeen seen) {
     return after;
 }
 
-// After it has passed through the boundary of `solid` (0: of none), into it or out of it. That solids overlap it keeps in mind.
+// What has been seen once the path has passed the boundary of `solid` (0: of none), into it or out of it; kSolidsOverlap stays.
 SolidsSeen passSolid(SolidsSeen seen, uint solid, bool enters, bool throughBoth) {
     SolidsSeen after = seen;
     if (seen.state != kSolidsOverlap && solid != 0u)

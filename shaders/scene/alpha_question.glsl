@@ -19,7 +19,7 @@ void askAlpha(Hit candidate, uint first, inout AlphaQuestion question) {
     }
 }
 
-// True if the candidate stops the ray, and hit is shortened to it.
+// Returns whether the candidate stops the ray, and then shortens hit to it.
 bool answerAlpha(uint first, uint seed, inout AlphaQuestion question, inout Hit hit) {
     const bool wasOpen = question.isOpen;
     const Hit candidate = question.candidate;

@@ -42,10 +42,10 @@ uint childReference(BvhChildren children, uint slot) {
 // What a ray passes through. A triangle that a ray starts or ends on must not be hit there: no offset of the origin could
 // prevent it without tearing holes, since the computed t of a grazing ray is off by the triangle's size times rounding.
 struct RayFilter {
-    bool cullBackFaces;   // the backs of single-sided triangles, as camera rays do
+    bool cullBackFaces;   // passes the backs of single-sided triangles, as camera rays do
     uint firstTriangle;   // ids, or kNoTriangle
     uint secondTriangle;
-    uint alphaSeed;       // of its decisions where surfaces may let it through: scene/alpha.glsl
+    uint alphaSeed;       // seed of the ray's decisions where surfaces may let it through: scene/alpha.glsl
 };
 
 bool passesThrough(RayFilter ignored, LeafTriangle triangle, bool front) {
@@ -90,8 +90,8 @@ uint nextLeaf(SlabRay slab, float tMax, inout uint siblings, inout Stack stack) 
     return isNode ? kEmptyLeaf : nearest;
 }
 
-// Depth first, near children first. A step tests a node and then, whatever came of it, a leaf: rays that run in lockstep
-// would otherwise pay for both and take one. Returns at the first hit if `any`.
+// Traverses depth first, near children first. A step tests a node and then, whatever came of it, a leaf: rays that run in
+// lockstep would otherwise pay for both and take one. Returns at the first hit if `any`.
 bool traverse(vec3 origin, vec3 direction, RayFilter ignored, bool any, inout Hit hit) {
     direction = withoutZeros(direction);
     SlabRay slab = slabRay(origin, direction);

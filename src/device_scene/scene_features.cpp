@@ -23,13 +23,13 @@ uint32_t lobeOf(float roughness, bool isTextured) {
     return (isSmooth || isTextured ? kFeatureSmoothLobes : 0u) | (isSmooth ? 0u : kFeatureRoughLobes);
 }
 
-// A texture makes no metal of what is none, but other things of metals.
+// Whether some point may be glass. A texture makes no metal of what is none, but other things of metals.
 bool isGlass(const Material& material) {
     const bool isMetal = material.metallic >= 1.0f && !has(material, TextureSlot::metallicRoughness);
     return !isMetal && material.transmission > 0.0f;
 }
 
-// Of the specular and the glass lobe.
+// Features of the specular and the glass lobe.
 uint32_t lobesOf(const Material& material) {
     const bool isSpecular = material.metallic > 0.0f || material.specular > 0.0f;
     if (!isSpecular && !isGlass(material))
@@ -41,7 +41,7 @@ uint32_t lobesOf(const Material& material) {
     return features;
 }
 
-// Of the layers and lobes that extensions add.
+// Features of the layers and lobes that extensions add.
 uint32_t extendedLobesOf(const Material& material) {
     uint32_t features = 0;
     if (material.clearcoat > 0.0f)

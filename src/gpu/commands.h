@@ -30,11 +30,11 @@ class Commands {
   public:
     explicit Commands(Device& device);
 
-    // Starts recording anew. Not while a submission runs.
+    // Starts recording anew. No submission may be running.
     void begin();
-    // `groups` workgroups along x; push constants must be as long as the kernel declares.
+    // Records `groups` workgroups along x; push constants must be as long as the kernel declares.
     void dispatch(const BoundKernel& kernel, uint32_t groups, std::span<const std::byte> pushConstants = {});
-    // Workgroup counts are read from `sizes` (three uint32) at `offset` bytes.
+    // Records a dispatch whose workgroup counts are read from `sizes` (three uint32) at `offset` bytes.
     void dispatchIndirect(const BoundKernel& kernel, const Buffer& sizes, uint64_t offset,
                           std::span<const std::byte> pushConstants = {});
     // Sets every 32-bit word of `buffer`.
@@ -65,13 +65,13 @@ class Commands {
     std::vector<vk::raii::CommandBuffer> buffers_; // exactly one
     vk::raii::Fence fence_ = nullptr;
     std::vector<vk::raii::Event> marks_; // set when a kernel of the submission is done, in order
-    std::vector<std::string> marked_;    // its name
+    std::vector<std::string> marked_;    // names of the kernels of these marks
     vk::raii::QueryPool queries_ = nullptr;
     std::vector<std::string> stamps_; // the name whose work ends at timestamp i; empty: not a kernel
     KernelTimes times_;
 };
 
-// One-shot copy of the first `bytes` bytes.
+// Copies the first `bytes` bytes, once.
 void copyAndWait(Device& device, const Buffer& from, const Buffer& to, uint64_t bytes);
 
 } // namespace lavalight::gpu

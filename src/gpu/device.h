@@ -78,7 +78,7 @@ class Device {
 
     [[nodiscard]] const DeviceDescription& description() const { return description_; }
     [[nodiscard]] const DeviceLimits& limits() const { return limits_; }
-    // As Instance has them.
+    // Messages of the validation layer (Instance).
     [[nodiscard]] std::vector<std::string> validationMessages() const {
         return instance_.validationMessages();
     }

@@ -39,7 +39,7 @@ FileWatch::~FileWatch() {
         close(notices_);
 }
 
-// inotify knows single folders: each below ours is added, those known already again, which changes nothing.
+// inotify watches single folders: each one below ours is added. Adding a known one again changes nothing.
 void FileWatch::watchFolders() {
     if (notices_ < 0)
         return;
@@ -66,7 +66,7 @@ FileWatch::Snapshot FileWatch::take() const {
     return snapshot;
 }
 
-// False: nothing to be told yet.
+// Whether there is something to tell.
 bool FileWatch::sleepUntilNotice(milliseconds atMost) {
     if (notices_ < 0) {
         std::this_thread::sleep_for(std::min(atMost, kPollingInterval));

@@ -15,8 +15,8 @@
 namespace lavalight {
 namespace {
 
-// Of those that a render uses. Headers of shared/ are not for experiments: the program's own memory is laid
-// out by them.
+// Paths of the files that a render uses. Headers of shared/ are not for experiments: the program's own memory
+// is laid out by them.
 std::vector<std::string> filesToChange() {
     std::vector<std::string> paths = embeddedShaderPaths();
     std::erase_if(paths, [](const std::string& path) {
