@@ -21,16 +21,16 @@ namespace {
 
 constexpr int kOutOfDeviceMemory = -2;
 
-LiveRequest smallRequest(Kernels kernels) {
+LiveRequest smallRequest(Schedule schedule) {
     LiveRequest request;
     request.scene = std::make_shared<const Scene>(loadScene("cornell-box"));
     request.camera = request.scene->cameras.front();
     request.settings.image.width = 8;
     request.settings.image.height = 6;
     request.settings.stop.samples = 2;
-    request.settings.waveSize = 4096;
+    request.settings.work.waveSize = 4096;
     request.settings.estimator.maxBounces = 4;
-    request.settings.kernels = kernels;
+    request.settings.work.schedule = schedule;
     return request;
 }
 
@@ -83,8 +83,8 @@ class LiveFault : public testing::Test {
 };
 
 TEST_F(LiveFault, AnyCallOfAMoveMayFail) {
-    for (const Kernels kernels : {Kernels::fused, Kernels::wavefront}) {
-        const LiveRequest shown = smallRequest(kernels);
+    for (const Schedule schedule : {Schedule::fused, Schedule::wavefront}) {
+        const LiveRequest shown = smallRequest(schedule);
         LiveRequest moved = shown;
         moved.camera.position.x += 0.1f;
         expectEveryCallMayFail(shown, moved);
