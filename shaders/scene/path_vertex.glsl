@@ -41,7 +41,7 @@ float hitLightPdf(Interaction surface, Hit hit, Ray ray) {
         return 0.0;
     const Receiver receiver = unpackReceiver(ray.origin, ray.receiver);
     return lightPmf(frame, receiver, surface.emitter) *
-           triangleLightPdf(loadLeafTriangle(hit.leafTriangle), ray.origin, surface.area, hit.t * hit.t,
+           triangleLightPdf(loadTriangle(hit.record), ray.origin, surface.area, hit.t * hit.t,
                             dot(surface.ng, ray.direction));
 }
 
@@ -73,8 +73,8 @@ bool nextEvent(Vertex v, vec3 throughput, out ShadowRay shadow) {
     shadow.contribution = clamped(throughput * arriving, v.key.vertex);
     shadow.origin = offsetOrigin(v.surface.p, v.surface.pError, v.surface.ng, light.wi);
     shadow.direction = light.end - shadow.origin;
-    shadow.fromTriangle = v.surface.triangle;
-    shadow.toTriangle = light.triangle;
+    shadow.fromSurface = v.surface.id;
+    shadow.toSurface = light.surface;
     return light.pdf > 0.0 && shadow.contribution != vec3(0.0);
 }
 
@@ -83,7 +83,7 @@ bool nextRay(Vertex v, inout Path path, out Ray ray) {
     const BsdfSample next =
         sampleBsdf(v.bsdf, v.wo, sample2D(v.key, kDimensionBsdf), sample1D(v.key, kDimensionLobe));
     const vec3 wi = toWorld(v.basis, next.wi);
-    ray = Ray(offsetOrigin(v.surface.p, v.surface.pError, v.surface.ng, wi), v.surface.triangle, wi, next.wi.z,
+    ray = Ray(offsetOrigin(v.surface.p, v.surface.pError, v.surface.ng, wi), v.surface.id, wi, next.wi.z,
               v.receiver, SolidsSeen(0u, 0u, kSolidsApart));
     path.throughput *= next.weight;
     path.bsdfPdf = next.pdf * (kMisSurvival != 0u ? v.survival : 1.0);

@@ -2,12 +2,12 @@
 #ifndef LAVALIGHT_SHARED_SCENE_H
 #define LAVALIGHT_SHARED_SCENE_H
 
-#include "shared/bvh.h"
+#include "shared/triangle.h"
 #include "shared/types.h"
 
 LAVALIGHT_SHARED_BEGIN
 
-// The material word of a leaf triangle (shared/bvh.h): the index in the low bits, flags above. Bit 31 is kNeverCulledBit.
+// The material word of a triangle (shared/triangle.h): the index in the low bits, flags above. Bit 31 is kNeverCulledBit.
 SHARED_CONST uint kMaterialMask = 0x1fffffffu;
 SHARED_CONST uint kAlphaBit = 0x20000000u; // rays may pass through: by alpha
 SHARED_CONST uint kFlatBit = 0x40000000u; // shaded with its geometric normal
@@ -86,7 +86,7 @@ struct LightRecord {
     uint alias;        // the other light of this column; of a light in the tree: bit i is set where its path leads into
                        // the second child, i levels below the root
     float pmf;         // with which the whole table picks this light, or the tree that it is in
-    uint source;       // kind in the top two bits; below: leaf triangle, or index of the punctual light
+    uint source;       // kind in the top two bits; below: triangle record, or index of the punctual light
 };
 SHARED_CONST uint kNoLight = 0xffffffffu;
 SHARED_CONST uint kLightKindShift = 30u;

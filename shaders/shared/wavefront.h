@@ -2,6 +2,7 @@
 #ifndef LAVALIGHT_SHARED_WAVEFRONT_H
 #define LAVALIGHT_SHARED_WAVEFRONT_H
 
+#include "shared/surface_id.h"
 #include "shared/types.h"
 
 LAVALIGHT_SHARED_BEGIN
@@ -22,18 +23,17 @@ SHARED_CONST uint kSolidsOverlap = 3u;   // left both: they do overlap
 // The ray a slot's path goes on with. The direction has unit length.
 struct Ray {
     vec3 origin;
-    uint fromTriangle; // id of the triangle that it starts on, or kNoTriangle
+    SurfaceId fromSurface; // that it starts on, or kNoSurface
     vec3 direction;
     float originCosine; // between the direction and the shading normal where it starts
     uint receiver;      // packed (scene/receiver.glsl): what the light tree was asked for there
     SolidsSeen solids;
 };
-SHARED_CONST uint kNoTriangle = 0xffffffffu;
 
 // Where that ray meets the scene first.
 struct Hit {
     float t; // distance; infinite: nothing was hit, and the rest is undefined
-    uint leafTriangle;
+    uint record; // of the triangle, in the order of the accelerator: scene/triangle_record.glsl tells what surface it is
     vec2 barycentrics; // b1, b2: the point is (1 - b1 - b2) v0 + b1 v1 + b2 v2
 };
 
@@ -48,9 +48,9 @@ struct Path {
 // way to the light).
 struct ShadowRay {
     vec3 origin;
-    uint fromTriangle; // ids of the triangles that it starts and ends on, or kNoTriangle
+    SurfaceId fromSurface; // that it starts on, or kNoSurface
     vec3 direction;
-    uint toTriangle;
+    SurfaceId toSurface; // that it ends on
     vec3 contribution;
     float unused;
 };

@@ -234,7 +234,7 @@ void RenderCommand::write(Take& take, const Outputs& files, Session& session) co
     }
     take.watch.lap("write");
     report.stages = take.watch.stages();
-    report.stages.emplace_back("prepareBvh", take.renderer->scene().bvhSeconds());
+    report.stages.emplace_back("prepareBvh", take.renderer->scene().accelerator().buildSeconds());
     report.stages.emplace_back("prepareKernels", take.renderer->kernels().seconds());
     if (take.toFirstSamples)
         report.stages.emplace_back("processToFirstSamples", *take.toFirstSamples);
