@@ -10,8 +10,6 @@
 
 #include "base/error.h"
 #include "cli/options/option_values.h"
-#include "image/environment_file.h"
-#include "session/builtin.h"
 
 namespace lavalight {
 namespace {
@@ -21,18 +19,6 @@ bool isMapName(const std::string& text) {
     constexpr std::array<const char*, 3> kExtensions{".hdr", ".exr", ".pic"};
     return std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end() ||
            std::filesystem::exists(text);
-}
-
-void readEnvironmentMap(const RenderSettings& settings, Scene& scene) {
-    if (settings.environmentFile.empty())
-        return;
-    EnvironmentFile file = readEnvironmentFile(settings.environmentFile);
-    if (file.badTexels > 0)
-        scene.warnings.push_back(
-            fmt::format("{}: {} of {} pixels had negative, infinite or undefined values, "
-                        "which were set to 0",
-                        settings.environmentFile, file.badTexels, file.image.pixels.size()));
-    scene.environmentMap = {settings.environmentFile, std::move(file.image), file.badTexels};
 }
 
 } // namespace
@@ -69,13 +55,6 @@ void EnvironmentOptions::applyTo(RenderSettings& settings) const {
     }
     if (parser_->count("--env-rotation") > 0 && settings.environmentFile.empty())
         throw UsageError("--env-rotation: there is no map to turn; give one with --env FILE");
-}
-
-Scene loadLit(const std::string& nameOrPath, ImportOptions options, const RenderSettings& settings) {
-    options.bringsLight = settings.environment.has_value() || !settings.environmentFile.empty();
-    Scene scene = loadScene(nameOrPath, options);
-    readEnvironmentMap(settings, scene);
-    return scene;
 }
 
 } // namespace lavalight

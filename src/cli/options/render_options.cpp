@@ -166,7 +166,7 @@ RenderSettings RenderOptions::settings() const {
     if (!size_.empty())
         parseSize(size_, settings);
     environment_.applyTo(settings);
-    settings.cameraOptions = camera_.given();
+    settings.provenance.cameraOptions = describe(camera_.choice());
     return settings;
 }
 
@@ -182,6 +182,10 @@ void RenderOptions::takeRange(RenderSettings& settings) const {
                             option));
     settings.firstSample = ranges->front().first;
     settings.samples = countOf(*ranges);
+}
+
+RenderPlan RenderOptions::plan(const std::string& scene) const {
+    return {scene, settings(), camera_.choice(), device(), {}};
 }
 
 gpu::DeviceConfig RenderOptions::device() const {
