@@ -2,23 +2,13 @@
 #ifndef LAVALIGHT_SHARED_WAVEFRONT_H
 #define LAVALIGHT_SHARED_WAVEFRONT_H
 
+#include "shared/interior_list.h"
 #include "shared/surface_id.h"
 #include "shared/types.h"
 
 LAVALIGHT_SHARED_BEGIN
 
 SHARED_CONST uint kWorkgroupSize = 64u;
-
-// Boundaries of volumes that a path passed through (lib/solids.glsl), by TriangleNormals::solid.
-struct SolidsSeen {
-    uint outer; // entered first; 0: none
-    uint inner; // entered within it
-    uint state; // kSolids...
-};
-SHARED_CONST uint kSolidsApart = 0u;
-SHARED_CONST uint kSolidsNested = 1u;    // within both
-SHARED_CONST uint kSolidsInnerLeft = 2u; // was within both
-SHARED_CONST uint kSolidsOverlap = 3u;   // left both: they do overlap
 
 // The ray a slot's path goes on with. The direction has unit length.
 struct Ray {
@@ -27,7 +17,7 @@ struct Ray {
     vec3 direction;
     float originCosine; // between the direction and the shading normal where it starts
     uint receiver;      // packed (scene/receiver.glsl): what the light tree was asked for there
-    SolidsSeen solids;
+    InteriorList interior; // solids that it runs through, with kFeatureSolids
 };
 
 // Where that ray meets the scene first.

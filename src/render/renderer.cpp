@@ -130,7 +130,7 @@ struct Renderer::Setup {
     SceneData scene;
     LightSelection lightSelection;
 
-    using MakeKernels = std::function<EstimatorKernels(uint32_t features)>;
+    using MakeKernels = std::function<EstimatorKernels(SceneFeatures features)>;
 
     static Setup make(const Scene& scene, const Camera& camera, const RenderSettings& settings,
                       const MakeKernels& makeKernels) {
@@ -151,7 +151,7 @@ Renderer::Renderer(gpu::Device& device, const Scene& scene, const Camera& camera
     : Renderer(
           device, resolveKernels(wanted, device.description().isCpu),
           [&](const RenderSettings& settings) {
-              return Setup::make(scene, camera, settings, [&](uint32_t features) {
+              return Setup::make(scene, camera, settings, [&](SceneFeatures features) {
                   return EstimatorKernels(device, settings.kernels, settings.estimator, features, source);
               });
           },
@@ -162,7 +162,7 @@ Renderer::Renderer(gpu::Device& device, const Scene& scene, const Camera& camera
     : Renderer(
           device, resolveKernels(wanted, device.description().isCpu),
           [&](const RenderSettings& settings) {
-              return Setup::make(scene, camera, settings, [&](uint32_t features) {
+              return Setup::make(scene, camera, settings, [&](SceneFeatures features) {
                   if (earlier.serve(settings.kernels, settings.estimator, features))
                       return std::move(earlier);
                   return EstimatorKernels(device, settings.kernels, settings.estimator, features, source);
@@ -208,7 +208,7 @@ void Renderer::restart(const Scene& scene, const Camera& camera, const RenderSet
     settings.estimator.lightSelection = settings_.estimator.lightSelection;
     FrameParameters frame = makeFrame(scene, camera, settings);
     copyLights(frame_, frame);
-    const uint32_t features = sceneFeatures_ | cameraFeatures(camera);
+    const SceneFeatures features = sceneFeatures_ | cameraFeatures(camera);
     if (!kernels_.serve(settings.kernels, settings.estimator, features)) {
         EstimatorKernels fresh(*device_, settings.kernels, settings.estimator, features, source);
         kernels_ = std::move(fresh);

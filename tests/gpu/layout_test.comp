@@ -32,7 +32,7 @@ layout(set = 0, binding = 59, std430) writeonly buffer TriangleTangentsOut { Tri
 layout(set = 0, binding = 53, std430) writeonly buffer TracedHitOut { TracedHit tracedHit[]; };
 
 void main() {
-    ray[1] = Ray(vec3(1, 2, 3), SurfaceId(4u), vec3(5, 6, 7), 8, 9u, SolidsSeen(10u, 11u, 12u));
+    ray[1] = Ray(vec3(1, 2, 3), SurfaceId(4u), vec3(5, 6, 7), 8, 9u, InteriorList(10u, 11u, 12u));
     hit[1] = Hit(1, 2u, vec2(3, 4));
     path[1] = Path(vec3(1, 2, 3), 4, vec3(5, 6, 7), 8);
     shadowRay[1] = ShadowRay(vec3(1, 2, 3), SurfaceId(4u), vec3(5, 6, 7), SurfaceId(8u), vec3(9, 10, 11), 12);
