@@ -16,28 +16,27 @@
 namespace lavalight {
 
 struct SceneData {
-  AcceleratorData accelerator;
-  std::vector<TriangleRecord> triangles; // in the scene's numbering
-  std::vector<TriangleNormals> normals;
-  std::vector<MaterialRecord> materials;
-  std::vector<LightRecord>
-      lights; // of emissive triangles: numbers of these, not of records
-  std::vector<PunctualRecord> punctuals;
-  std::vector<LightTreeRecord> lightTree;
-  // Empty where the scene has no such feature:
-  PackedTextures textures;
-  std::vector<TriangleUvs> uvs;
-  std::vector<TriangleColors> colors;
-  std::vector<TriangleTangents> tangents;
-  std::vector<glm::vec4> environmentMap; // per cell of light/environment.h
-  std::vector<EnvironmentQuad> environmentQuads;
-  SceneFeatures features = 0; // kFeature...
+    AcceleratorData accelerator;
+    std::vector<TriangleRecord> triangles; // in the scene's numbering
+    std::vector<TriangleNormals> normals;
+    std::vector<MaterialRecord> materials;
+    std::vector<LightRecord> lights; // of emissive triangles: numbers of these, not of records
+    std::vector<PunctualRecord> punctuals;
+    std::vector<LightTreeRecord> lightTree;
+    // Empty where the scene has no such feature:
+    PackedTextures textures;
+    std::vector<TriangleUvs> uvs;
+    std::vector<TriangleColors> colors;
+    std::vector<TriangleTangents> tangents;
+    std::vector<glm::vec4> environmentMap; // per cell of light/environment.h
+    std::vector<EnvironmentQuad> environmentQuads;
+    SceneFeatures features = 0; // kFeature...
 };
 
 // Builds the accelerator and packs everything; no device is needed. `lights`
 // are the scene's. Throws Error for more triangles than memory could hold.
-[[nodiscard]] SceneData packScene(const Scene &scene, const Lights &lights);
+[[nodiscard]] SceneData packScene(const Scene& scene, const Lights& lights);
 // With its own environment, and lights picked by power.
-[[nodiscard]] SceneData packScene(const Scene &scene);
+[[nodiscard]] SceneData packScene(const Scene& scene);
 
 } // namespace lavalight

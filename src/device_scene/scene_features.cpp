@@ -15,162 +15,142 @@ namespace {
 // (docs/performance.md).
 constexpr uint64_t kManyTriangles = 10000;
 
-bool has(const Material &material, TextureSlot slot) {
-  return material.texture(slot).has_value();
+bool has(const Material& material, TextureSlot slot) {
+    return material.texture(slot).has_value();
 }
 
 // A texture makes a rough lobe smooth at some points; a smooth one it leaves
 // smooth.
 SceneFeatures lobeOf(float roughness, bool isTextured) {
-  const bool isSmooth = roughness * roughness < kSmoothAlpha;
-  return (isSmooth || isTextured ? kFeatureSmoothLobes : 0u) |
-         (isSmooth ? 0u : kFeatureRoughLobes);
+    const bool isSmooth = roughness * roughness < kSmoothAlpha;
+    return (isSmooth || isTextured ? kFeatureSmoothLobes : 0u) | (isSmooth ? 0u : kFeatureRoughLobes);
 }
 
 // A texture makes no metal of what is none, but other things of metals.
-bool isGlass(const Material &material) {
-  const bool isMetal = material.metallic >= 1.0f &&
-                       !has(material, TextureSlot::metallicRoughness);
-  return !isMetal && material.transmission > 0.0f;
+bool isGlass(const Material& material) {
+    const bool isMetal = material.metallic >= 1.0f && !has(material, TextureSlot::metallicRoughness);
+    return !isMetal && material.transmission > 0.0f;
 }
 
 // Of the specular and the glass lobe.
-SceneFeatures lobesOf(const Material &material) {
-  const bool isSpecular = material.metallic > 0.0f || material.specular > 0.0f;
-  if (!isSpecular && !isGlass(material))
-    return 0;
-  SceneFeatures features = (isSpecular ? kFeatureSpecular : 0u) |
-                           (isGlass(material) ? kFeatureGlass : 0u);
-  features |=
-      lobeOf(material.roughness, has(material, TextureSlot::metallicRoughness));
-  if (material.isGlossiness && has(material, TextureSlot::specularColor))
-    features |= kFeatureRoughLobes | kFeatureSmoothLobes;
-  return features;
+SceneFeatures lobesOf(const Material& material) {
+    const bool isSpecular = material.metallic > 0.0f || material.specular > 0.0f;
+    if (!isSpecular && !isGlass(material))
+        return 0;
+    SceneFeatures features = (isSpecular ? kFeatureSpecular : 0u) | (isGlass(material) ? kFeatureGlass : 0u);
+    features |= lobeOf(material.roughness, has(material, TextureSlot::metallicRoughness));
+    if (material.isGlossiness && has(material, TextureSlot::specularColor))
+        features |= kFeatureRoughLobes | kFeatureSmoothLobes;
+    return features;
 }
 
 // Of the layers and lobes that extensions add.
-SceneFeatures extendedLobesOf(const Material &material) {
-  SceneFeatures features = 0;
-  if (material.clearcoat > 0.0f)
-    features |= kFeatureClearcoat |
-                lobeOf(material.clearcoatRoughness,
-                       has(material, TextureSlot::clearcoatRoughness));
-  features |= material.sheenColor != glm::vec3(0.0f) ? kFeatureSheen : 0u;
-  features |=
-      material.anisotropy > 0.0f ? kFeatureAnisotropy | kFeatureRoughLobes : 0u;
-  features |= material.iridescence > 0.0f ? kFeatureIridescence : 0u;
-  features |=
-      material.diffuseTransmission > 0.0f ? kFeatureDiffuseTransmission : 0u;
-  features |=
-      isGlass(material) && material.isSolid && material.dispersion > 0.0f
-          ? kFeatureDispersion
-          : 0u;
-  return features;
+SceneFeatures extendedLobesOf(const Material& material) {
+    SceneFeatures features = 0;
+    if (material.clearcoat > 0.0f)
+        features |= kFeatureClearcoat |
+                    lobeOf(material.clearcoatRoughness, has(material, TextureSlot::clearcoatRoughness));
+    features |= material.sheenColor != glm::vec3(0.0f) ? kFeatureSheen : 0u;
+    features |= material.anisotropy > 0.0f ? kFeatureAnisotropy | kFeatureRoughLobes : 0u;
+    features |= material.iridescence > 0.0f ? kFeatureIridescence : 0u;
+    features |= material.diffuseTransmission > 0.0f ? kFeatureDiffuseTransmission : 0u;
+    features |= isGlass(material) && material.isSolid && material.dispersion > 0.0f ? kFeatureDispersion : 0u;
+    return features;
 }
 
-Bounds boundsOf(const Mesh &mesh) {
-  Bounds bounds{mesh.positions.front(), mesh.positions.front()};
-  for (const glm::vec3 &position : mesh.positions) {
-    bounds.lower = glm::min(bounds.lower, position);
-    bounds.upper = glm::max(bounds.upper, position);
-  }
-  return bounds;
+Bounds boundsOf(const Mesh& mesh) {
+    Bounds bounds{mesh.positions.front(), mesh.positions.front()};
+    for (const glm::vec3& position : mesh.positions) {
+        bounds.lower = glm::min(bounds.lower, position);
+        bounds.upper = glm::max(bounds.upper, position);
+    }
+    return bounds;
 }
 
-bool attenuates(const Material &material) {
-  return boundsSolid(material) &&
-         material.attenuationDistance < kNoAttenuation &&
-         material.attenuationColor != glm::vec3(1.0f);
+bool attenuates(const Material& material) {
+    return boundsSolid(material) && material.attenuationDistance < kNoAttenuation &&
+           material.attenuationColor != glm::vec3(1.0f);
 }
 
-bool wantsTangents(const Material &material) {
-  return has(material, TextureSlot::normal) ||
-         has(material, TextureSlot::clearcoatNormal) ||
-         material.anisotropy > 0.0f;
+bool wantsTangents(const Material& material) {
+    return has(material, TextureSlot::normal) || has(material, TextureSlot::clearcoatNormal) ||
+           material.anisotropy > 0.0f;
 }
 
-SceneFeatures featuresOf(const Material &material) {
-  SceneFeatures features = lobesOf(material) | extendedLobesOf(material);
-  features |= textureSlots(material) != 0 ? kFeatureTextures : 0u;
-  features |= wantsTangents(material) ? kFeatureTangents : 0u;
-  features |= material.isUnlit ? kFeatureUnlit : 0u;
-  features |= attenuates(material) ? kFeatureAttenuation : 0u;
-  return features;
+SceneFeatures featuresOf(const Material& material) {
+    SceneFeatures features = lobesOf(material) | extendedLobesOf(material);
+    features |= textureSlots(material) != 0 ? kFeatureTextures : 0u;
+    features |= wantsTangents(material) ? kFeatureTangents : 0u;
+    features |= material.isUnlit ? kFeatureUnlit : 0u;
+    features |= attenuates(material) ? kFeatureAttenuation : 0u;
+    return features;
 }
 
-SceneFeatures featuresOf(const Mesh &mesh) {
-  return (mesh.normals.empty() ? 0u : kFeatureShadingNormals) |
-         (mesh.colors.empty() ? 0u : kFeatureVertexColors);
+SceneFeatures featuresOf(const Mesh& mesh) {
+    return (mesh.normals.empty() ? 0u : kFeatureShadingNormals) |
+           (mesh.colors.empty() ? 0u : kFeatureVertexColors);
 }
 
 } // namespace
 
-bool boundsSolid(const Material &material) {
-  return material.isSolid &&
-         (material.transmission > 0.0f || material.diffuseTransmission > 0.0f);
+bool boundsSolid(const Material& material) {
+    return material.isSolid && (material.transmission > 0.0f || material.diffuseTransmission > 0.0f);
 }
 
-bool solidsMayOverlap(const Scene &scene) {
-  std::vector<Bounds> boxes;
-  for (const Mesh &mesh : scene.meshes)
-    if (boundsSolid(scene.materials[mesh.material]) && !mesh.positions.empty())
-      boxes.push_back(boundsOf(mesh));
-  std::sort(boxes.begin(), boxes.end(), [](const Bounds &a, const Bounds &b) {
-    return a.lower.x < b.lower.x;
-  });
-  for (size_t i = 0; i < boxes.size(); ++i)
-    for (size_t j = i + 1;
-         j < boxes.size() && boxes[j].lower.x < boxes[i].upper.x; ++j)
-      if (glm::all(glm::lessThan(glm::max(boxes[i].lower, boxes[j].lower),
-                                 glm::min(boxes[i].upper, boxes[j].upper))))
-        return true;
-  return false;
+bool solidsMayOverlap(const Scene& scene) {
+    std::vector<Bounds> boxes;
+    for (const Mesh& mesh : scene.meshes)
+        if (boundsSolid(scene.materials[mesh.material]) && !mesh.positions.empty())
+            boxes.push_back(boundsOf(mesh));
+    std::sort(boxes.begin(), boxes.end(),
+              [](const Bounds& a, const Bounds& b) { return a.lower.x < b.lower.x; });
+    for (size_t i = 0; i < boxes.size(); ++i)
+        for (size_t j = i + 1; j < boxes.size() && boxes[j].lower.x < boxes[i].upper.x; ++j)
+            if (glm::all(glm::lessThan(glm::max(boxes[i].lower, boxes[j].lower),
+                                       glm::min(boxes[i].upper, boxes[j].upper))))
+                return true;
+    return false;
 }
 
-SceneFeatures sceneFeatures(const Scene &scene, const Lights &lights) {
-  SceneFeatures features = 0;
-  std::vector<bool> isWorn(scene.materials.size(), false);
-  for (const Mesh &mesh : scene.meshes) {
-    features |= featuresOf(mesh);
-    isWorn[mesh.material] = true;
-  }
-  for (size_t i = 0; i < scene.materials.size(); ++i)
-    features |= isWorn[i] ? featuresOf(scene.materials[i]) : 0u;
-  const std::vector<bool> transparent = transparentMeshes(scene);
-  features |= std::find(transparent.begin(), transparent.end(), true) !=
-                      transparent.end()
-                  ? kFeatureAlpha
-                  : 0u;
-  features |=
-      scene.triangleCount() >= kManyTriangles ? kFeatureManyTriangles : 0u;
-  features |= solidsMayOverlap(scene) ? kFeatureSolids : 0u;
-  features |= lights.emitters.list.empty() ? 0u : kFeatureTriangleLights;
-  features |= lights.punctuals.empty() ? 0u : kFeaturePunctualLights;
-  if (lights.environmentRadiance != glm::vec3(0.0f))
+SceneFeatures sceneFeatures(const Scene& scene, const Lights& lights) {
+    SceneFeatures features = 0;
+    std::vector<bool> isWorn(scene.materials.size(), false);
+    for (const Mesh& mesh : scene.meshes) {
+        features |= featuresOf(mesh);
+        isWorn[mesh.material] = true;
+    }
+    for (size_t i = 0; i < scene.materials.size(); ++i)
+        features |= isWorn[i] ? featuresOf(scene.materials[i]) : 0u;
+    const std::vector<bool> transparent = transparentMeshes(scene);
     features |=
-        lights.environmentMap ? kFeatureEnvironmentMap : kFeatureEnvironment;
-  features |= lights.tree.nodes.empty() ? 0u : kFeatureLightTree;
-  features |= lights.table.empty() ? 0u : kFeatureLights;
-  features |= lights.environment ? kFeatureEnvironmentLight : 0u;
-  return features;
+        std::find(transparent.begin(), transparent.end(), true) != transparent.end() ? kFeatureAlpha : 0u;
+    features |= scene.triangleCount() >= kManyTriangles ? kFeatureManyTriangles : 0u;
+    features |= solidsMayOverlap(scene) ? kFeatureSolids : 0u;
+    features |= lights.emitters.list.empty() ? 0u : kFeatureTriangleLights;
+    features |= lights.punctuals.empty() ? 0u : kFeaturePunctualLights;
+    if (lights.environmentRadiance != glm::vec3(0.0f))
+        features |= lights.environmentMap ? kFeatureEnvironmentMap : kFeatureEnvironment;
+    features |= lights.tree.nodes.empty() ? 0u : kFeatureLightTree;
+    features |= lights.table.empty() ? 0u : kFeatureLights;
+    features |= lights.environment ? kFeatureEnvironmentLight : 0u;
+    return features;
 }
 
-SceneFeatures cameraFeatures(const Camera &camera) {
-  switch (camera.projection) {
-  case Projection::perspective:
-    return camera.lensRadius > 0.0f ? kFeatureLens : 0u;
-  case Projection::orthographic:
-    return kFeatureOrthographic;
-  case Projection::panorama:
-    return kFeaturePanorama;
-  }
-  return 0;
+SceneFeatures cameraFeatures(const Camera& camera) {
+    switch (camera.projection) {
+    case Projection::perspective:
+        return camera.lensRadius > 0.0f ? kFeatureLens : 0u;
+    case Projection::orthographic:
+        return kFeatureOrthographic;
+    case Projection::panorama:
+        return kFeaturePanorama;
+    }
+    return 0;
 }
 
-std::array<gpu::SpecialisationConstant, 2>
-featureConstants(SceneFeatures features) {
-  return {{{CONSTANT_FEATURES, static_cast<uint32_t>(features)},
-           {CONSTANT_MORE_FEATURES, static_cast<uint32_t>(features >> 32u)}}};
+std::array<gpu::SpecialisationConstant, 2> featureConstants(SceneFeatures features) {
+    return {{{CONSTANT_FEATURES, static_cast<uint32_t>(features)},
+             {CONSTANT_MORE_FEATURES, static_cast<uint32_t>(features >> 32u)}}};
 }
 
 } // namespace lavalight

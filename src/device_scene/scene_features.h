@@ -11,19 +11,17 @@
 namespace lavalight {
 
 // kFeature... bits. `lights`: those of the scene that have power.
-[[nodiscard]] SceneFeatures sceneFeatures(const Scene &scene,
-                                          const Lights &lights);
+[[nodiscard]] SceneFeatures sceneFeatures(const Scene& scene, const Lights& lights);
 // Whether light passes through surfaces of the material to the inside of a
 // volume.
-[[nodiscard]] bool boundsSolid(const Material &material);
+[[nodiscard]] bool boundsSolid(const Material& material);
 // Whether the bounding boxes of two meshes of such materials have a common
 // inside.
-[[nodiscard]] bool solidsMayOverlap(const Scene &scene);
+[[nodiscard]] bool solidsMayOverlap(const Scene& scene);
 // Those that the camera adds.
-[[nodiscard]] SceneFeatures cameraFeatures(const Camera &camera);
+[[nodiscard]] SceneFeatures cameraFeatures(const Camera& camera);
 
 // The two words for kernels.
-[[nodiscard]] std::array<gpu::SpecialisationConstant, 2>
-featureConstants(SceneFeatures features);
+[[nodiscard]] std::array<gpu::SpecialisationConstant, 2> featureConstants(SceneFeatures features);
 
 } // namespace lavalight

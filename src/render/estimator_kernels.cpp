@@ -8,78 +8,68 @@
 
 namespace lavalight {
 
-std::vector<gpu::SpecialisationConstant>
-estimatorConstants(const EstimatorSettings &settings, SceneFeatures features) {
-  const auto [first, second] = featureConstants(features);
-  return {
-      {CONSTANT_SAMPLER, static_cast<uint32_t>(settings.sampler)},
-      {CONSTANT_HEMISPHERE, static_cast<uint32_t>(settings.hemisphere)},
-      {CONSTANT_NEE, settings.nextEventEstimation ? 1u : 0u},
-      {CONSTANT_MIS, static_cast<uint32_t>(settings.mis)},
-      {CONSTANT_ROULETTE, static_cast<uint32_t>(settings.roulette)},
-      {CONSTANT_MIS_SURVIVAL, settings.misSurvival ? 1u : 0u},
-      {CONSTANT_FRESNEL, static_cast<uint32_t>(settings.fresnel)},
-      {CONSTANT_MULTIPLE_SCATTERING, settings.multipleScattering ? 1u : 0u},
-      {CONSTANT_TEXTURE_FILTER, static_cast<uint32_t>(settings.textureFilter)},
-      first,
-      second};
+std::vector<gpu::SpecialisationConstant> estimatorConstants(const EstimatorSettings& settings,
+                                                            SceneFeatures features) {
+    const auto [first, second] = featureConstants(features);
+    return {{CONSTANT_SAMPLER, static_cast<uint32_t>(settings.sampler)},
+            {CONSTANT_HEMISPHERE, static_cast<uint32_t>(settings.hemisphere)},
+            {CONSTANT_NEE, settings.nextEventEstimation ? 1u : 0u},
+            {CONSTANT_MIS, static_cast<uint32_t>(settings.mis)},
+            {CONSTANT_ROULETTE, static_cast<uint32_t>(settings.roulette)},
+            {CONSTANT_MIS_SURVIVAL, settings.misSurvival ? 1u : 0u},
+            {CONSTANT_FRESNEL, static_cast<uint32_t>(settings.fresnel)},
+            {CONSTANT_MULTIPLE_SCATTERING, settings.multipleScattering ? 1u : 0u},
+            {CONSTANT_TEXTURE_FILTER, static_cast<uint32_t>(settings.textureFilter)},
+            first,
+            second};
 }
 
 std::vector<std::string_view> estimatorKernelNames(Kernels kernels) {
-  assert(kernels != Kernels::automatic);
-  if (kernels == Kernels::fused)
-    return {"path", "accumulate"};
-  return {"generate", "extend", "shade", "prepare", "connect", "accumulate"};
+    assert(kernels != Kernels::automatic);
+    if (kernels == Kernels::fused)
+        return {"path", "accumulate"};
+    return {"generate", "extend", "shade", "prepare", "connect", "accumulate"};
 }
 
-EstimatorKernels::EstimatorKernels(gpu::Device &device, Kernels kernels,
-                                   const EstimatorSettings &settings,
-                                   SceneFeatures features,
-                                   const KernelSource &source)
+EstimatorKernels::EstimatorKernels(gpu::Device& device, Kernels kernels, const EstimatorSettings& settings,
+                                   SceneFeatures features, const KernelSource& source)
     : way_(kernels), constants_(estimatorConstants(settings, features)) {
-  const auto start = std::chrono::steady_clock::now();
-  std::vector<const gpu::Kernel *> made;
-  for (const std::string_view name : estimatorKernelNames(kernels))
-    made.push_back(
-        &kernels_
-             .try_emplace(std::string(name), device, source(name), constants_)
-             .first->second);
-  gpu::warmUp(device, made);
-  seconds_ =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start)
-          .count();
+    const auto start = std::chrono::steady_clock::now();
+    std::vector<const gpu::Kernel*> made;
+    for (const std::string_view name : estimatorKernelNames(kernels))
+        made.push_back(
+            &kernels_.try_emplace(std::string(name), device, source(name), constants_).first->second);
+    gpu::warmUp(device, made);
+    seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-std::vector<std::string>
-EstimatorKernels::changed(const KernelSource &source) const {
-  std::vector<std::string> names;
-  for (const auto &[name, kernel] : kernels_)
-    if (source(name).content != kernel.code().content)
-      names.push_back(name);
-  return names;
+std::vector<std::string> EstimatorKernels::changed(const KernelSource& source) const {
+    std::vector<std::string> names;
+    for (const auto& [name, kernel] : kernels_)
+        if (source(name).content != kernel.code().content)
+            names.push_back(name);
+    return names;
 }
 
-void EstimatorKernels::reload(gpu::Device &device, const KernelSource &source) {
-  std::map<std::string, gpu::Kernel, std::less<>> fresh;
-  std::vector<const gpu::Kernel *> made;
-  for (const std::string &name : changed(source))
-    made.push_back(&fresh.try_emplace(name, device, source(name), constants_)
-                        .first->second);
-  gpu::warmUp(device, made);
-  for (auto &[name, kernel] : fresh)
-    kernels_.insert_or_assign(name, std::move(kernel));
+void EstimatorKernels::reload(gpu::Device& device, const KernelSource& source) {
+    std::map<std::string, gpu::Kernel, std::less<>> fresh;
+    std::vector<const gpu::Kernel*> made;
+    for (const std::string& name : changed(source))
+        made.push_back(&fresh.try_emplace(name, device, source(name), constants_).first->second);
+    gpu::warmUp(device, made);
+    for (auto& [name, kernel] : fresh)
+        kernels_.insert_or_assign(name, std::move(kernel));
 }
 
-bool EstimatorKernels::serve(Kernels kernels, const EstimatorSettings &settings,
+bool EstimatorKernels::serve(Kernels kernels, const EstimatorSettings& settings,
                              SceneFeatures features) const {
-  return kernels == way_ &&
-         estimatorConstants(settings, features) == constants_;
+    return kernels == way_ && estimatorConstants(settings, features) == constants_;
 }
 
-const gpu::Kernel &EstimatorKernels::operator[](std::string_view name) const {
-  const auto found = kernels_.find(name);
-  assert(found != kernels_.end());
-  return found->second;
+const gpu::Kernel& EstimatorKernels::operator[](std::string_view name) const {
+    const auto found = kernels_.find(name);
+    assert(found != kernels_.end());
+    return found->second;
 }
 
 } // namespace lavalight

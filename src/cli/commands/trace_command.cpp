@@ -82,7 +82,8 @@ int TraceCommand::run() {
     json["sample"] = sample_;
     json["radiance"] = list(path.radiance);
     for (size_t i = 0; i < path.vertices.size(); ++i)
-        json["vertices"].push_back(vertexJson(path.vertices[i], static_cast<uint32_t>(i + 1), prepared.scene));
+        json["vertices"].push_back(
+            vertexJson(path.vertices[i], static_cast<uint32_t>(i + 1), prepared.scene));
     fmt::print("{}\n", json.dump(2));
     return 0;
 }

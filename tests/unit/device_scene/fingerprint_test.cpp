@@ -11,27 +11,25 @@ namespace lavalight::test {
 namespace {
 
 TEST(Fingerprint, IsTheSameForEveryTree) {
-  const Scene scene = loadScene("cornell-box");
-  SceneData data = packScene(scene);
-  const Fingerprints before = fingerprintsOf(data);
-  const Bvh median = medianBvh(sceneTriangles(scene));
-  ASSERT_NE(median.leafTriangles, data.accelerator.bvh.leafTriangles);
-  data.accelerator.bvh = median;
-  EXPECT_EQ(fingerprintsOf(data), before);
+    const Scene scene = loadScene("cornell-box");
+    SceneData data = packScene(scene);
+    const Fingerprints before = fingerprintsOf(data);
+    const Bvh median = medianBvh(sceneTriangles(scene));
+    ASSERT_NE(median.leafTriangles, data.accelerator.bvh.leafTriangles);
+    data.accelerator.bvh = median;
+    EXPECT_EQ(fingerprintsOf(data), before);
 }
 
 TEST(Fingerprint, NamesTheAccelerator) {
-  const Fingerprints parts =
-      fingerprintsOf(packScene(loadScene("cornell-box")));
-  EXPECT_EQ(parts.back(),
-            (std::pair<std::string, std::string>("accelerator", "bvh8")));
+    const Fingerprints parts = fingerprintsOf(packScene(loadScene("cornell-box")));
+    EXPECT_EQ(parts.back(), (std::pair<std::string, std::string>("accelerator", "bvh8")));
 }
 
 TEST(Fingerprint, IsAnotherWhereACornerHasMoved) {
-  Scene scene = loadScene("cornell-box");
-  const Fingerprints before = fingerprintsOf(packScene(scene));
-  scene.meshes.back().positions.back().x += 1e-4f;
-  EXPECT_NE(fingerprintsOf(packScene(scene)).front(), before.front());
+    Scene scene = loadScene("cornell-box");
+    const Fingerprints before = fingerprintsOf(packScene(scene));
+    scene.meshes.back().positions.back().x += 1e-4f;
+    EXPECT_NE(fingerprintsOf(packScene(scene)).front(), before.front());
 }
 
 } // namespace

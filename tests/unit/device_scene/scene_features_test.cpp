@@ -11,198 +11,186 @@ namespace lavalight::test {
 namespace {
 
 Material lambert() {
-  Material material;
-  material.metallic = 0.0f;
-  material.specular = 0.0f;
-  return material;
+    Material material;
+    material.metallic = 0.0f;
+    material.specular = 0.0f;
+    return material;
 }
 
-SceneFeatures featuresOf(const Scene &scene) {
-  return sceneFeatures(
-      scene, collectLights(scene, scene.environment, LightSelection::power));
+SceneFeatures featuresOf(const Scene& scene) {
+    return sceneFeatures(scene, collectLights(scene, scene.environment, LightSelection::power));
 }
 
-SceneFeatures featuresOf(const Material &material) {
-  Scene scene;
-  scene.materials = {lambert(), material};
-  scene.meshes.emplace_back().material = 1;
-  return featuresOf(scene);
+SceneFeatures featuresOf(const Material& material) {
+    Scene scene;
+    scene.materials = {lambert(), material};
+    scene.meshes.emplace_back().material = 1;
+    return featuresOf(scene);
 }
 
 TEST(SceneFeatures, ReachKernelsAsTwoWords) {
-  const auto words = featureConstants(kFeatureGlass | kFeatureLights |
-                                      kFeatureLens | kFeatureSolids);
-  EXPECT_EQ(words[0], (gpu::SpecialisationConstant{CONSTANT_FEATURES,
-                                                   1u << 1 | 1u << 22}));
-  EXPECT_EQ(words[1], (gpu::SpecialisationConstant{CONSTANT_MORE_FEATURES,
-                                                   1u << 0 | 1u << 3}));
+    const auto words = featureConstants(kFeatureGlass | kFeatureLights | kFeatureLens | kFeatureSolids);
+    EXPECT_EQ(words[0], (gpu::SpecialisationConstant{CONSTANT_FEATURES, 1u << 1 | 1u << 22}));
+    EXPECT_EQ(words[1], (gpu::SpecialisationConstant{CONSTANT_MORE_FEATURES, 1u << 0 | 1u << 3}));
 }
 
 TEST(SceneFeatures, LambertSurfacesHaveNone) {
-  EXPECT_EQ(featuresOf(lambert()), 0u);
+    EXPECT_EQ(featuresOf(lambert()), 0u);
 }
 
 TEST(SceneFeatures, MetalsAndCoatingsAreSpecularAndRoughUnlessTheyAreMirrors) {
-  Material metal = lambert();
-  metal.metallic = 0.5f;
-  EXPECT_EQ(featuresOf(metal), kFeatureSpecular | kFeatureRoughLobes);
-  metal.roughness = 0.01f;
-  EXPECT_EQ(featuresOf(metal), kFeatureSpecular | kFeatureSmoothLobes);
-  Material coated = lambert();
-  coated.specular = 0.1f;
-  EXPECT_EQ(featuresOf(coated), kFeatureSpecular | kFeatureRoughLobes);
+    Material metal = lambert();
+    metal.metallic = 0.5f;
+    EXPECT_EQ(featuresOf(metal), kFeatureSpecular | kFeatureRoughLobes);
+    metal.roughness = 0.01f;
+    EXPECT_EQ(featuresOf(metal), kFeatureSpecular | kFeatureSmoothLobes);
+    Material coated = lambert();
+    coated.specular = 0.1f;
+    EXPECT_EQ(featuresOf(coated), kFeatureSpecular | kFeatureRoughLobes);
 }
 
 TEST(SceneFeatures, GlassIsWhatTransmitsAndIsNoMetal) {
-  Material glass = lambert();
-  glass.transmission = 0.5f;
-  glass.roughness = 0.0f;
-  EXPECT_EQ(featuresOf(glass), kFeatureGlass | kFeatureSmoothLobes);
-  glass.metallic = 1.0f;
-  EXPECT_EQ(featuresOf(glass), kFeatureSpecular | kFeatureSmoothLobes);
+    Material glass = lambert();
+    glass.transmission = 0.5f;
+    glass.roughness = 0.0f;
+    EXPECT_EQ(featuresOf(glass), kFeatureGlass | kFeatureSmoothLobes);
+    glass.metallic = 1.0f;
+    EXPECT_EQ(featuresOf(glass), kFeatureSpecular | kFeatureSmoothLobes);
 }
 
-TEST(SceneFeatures,
-     TexturesMayMakeMirrorsAndGlassOfWhatTheFactorsMakeRoughOrMetal) {
-  Material metal = lambert();
-  metal.metallic = 1.0f;
-  metal.transmission = 1.0f;
-  metal.textures[kSlotMetallicRoughness] = Texture{};
-  EXPECT_EQ(featuresOf(metal), kFeatureSpecular | kFeatureGlass |
-                                   kFeatureRoughLobes | kFeatureSmoothLobes |
-                                   kFeatureTextures);
-  Material glossy = lambert();
-  glossy.specular = 1.0f;
-  glossy.roughness = 0.0f;
-  glossy.isGlossiness = true;
-  glossy.textures[kSlotSpecularColor] = Texture{};
-  EXPECT_EQ(featuresOf(glossy), kFeatureSpecular | kFeatureRoughLobes |
-                                    kFeatureSmoothLobes | kFeatureTextures);
+TEST(SceneFeatures, TexturesMayMakeMirrorsAndGlassOfWhatTheFactorsMakeRoughOrMetal) {
+    Material metal = lambert();
+    metal.metallic = 1.0f;
+    metal.transmission = 1.0f;
+    metal.textures[kSlotMetallicRoughness] = Texture{};
+    EXPECT_EQ(featuresOf(metal),
+              kFeatureSpecular | kFeatureGlass | kFeatureRoughLobes | kFeatureSmoothLobes | kFeatureTextures);
+    Material glossy = lambert();
+    glossy.specular = 1.0f;
+    glossy.roughness = 0.0f;
+    glossy.isGlossiness = true;
+    glossy.textures[kSlotSpecularColor] = Texture{};
+    EXPECT_EQ(featuresOf(glossy),
+              kFeatureSpecular | kFeatureRoughLobes | kFeatureSmoothLobes | kFeatureTextures);
 }
 
 TEST(SceneFeatures, NormalMapsWantTangentsAndSolidsOfColourAttenuation) {
-  Material mapped = lambert();
-  mapped.textures[kSlotNormal] = Texture{};
-  EXPECT_EQ(featuresOf(mapped), kFeatureTextures | kFeatureTangents);
-  Material body = lambert();
-  body.transmission = 1.0f;
-  body.isSolid = true;
-  body.attenuationColor = {1.0f, 0.5f, 0.5f};
-  EXPECT_EQ(featuresOf(body) & kFeatureAttenuation, 0u);
-  body.attenuationDistance = 1.0f;
-  EXPECT_EQ(featuresOf(body) & kFeatureAttenuation, kFeatureAttenuation);
-  Material unlit = lambert();
-  unlit.isUnlit = true;
-  EXPECT_EQ(featuresOf(unlit), kFeatureUnlit);
+    Material mapped = lambert();
+    mapped.textures[kSlotNormal] = Texture{};
+    EXPECT_EQ(featuresOf(mapped), kFeatureTextures | kFeatureTangents);
+    Material body = lambert();
+    body.transmission = 1.0f;
+    body.isSolid = true;
+    body.attenuationColor = {1.0f, 0.5f, 0.5f};
+    EXPECT_EQ(featuresOf(body) & kFeatureAttenuation, 0u);
+    body.attenuationDistance = 1.0f;
+    EXPECT_EQ(featuresOf(body) & kFeatureAttenuation, kFeatureAttenuation);
+    Material unlit = lambert();
+    unlit.isUnlit = true;
+    EXPECT_EQ(featuresOf(unlit), kFeatureUnlit);
 }
 
 TEST(SceneFeatures, ColoursAndAlphaOfMeshesAreNamed) {
-  Scene scene;
-  scene.materials = {lambert()};
-  Mesh mesh;
-  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-  mesh.triangles = {{0, 1, 2}};
-  mesh.colors.assign(3, glm::vec4(0.5f));
-  scene.meshes = {mesh};
-  EXPECT_EQ(featuresOf(scene), kFeatureVertexColors);
-  scene.materials.front().alphaMode = AlphaMode::blend;
-  EXPECT_EQ(featuresOf(scene), kFeatureVertexColors | kFeatureAlpha);
+    Scene scene;
+    scene.materials = {lambert()};
+    Mesh mesh;
+    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    mesh.triangles = {{0, 1, 2}};
+    mesh.colors.assign(3, glm::vec4(0.5f));
+    scene.meshes = {mesh};
+    EXPECT_EQ(featuresOf(scene), kFeatureVertexColors);
+    scene.materials.front().alphaMode = AlphaMode::blend;
+    EXPECT_EQ(featuresOf(scene), kFeatureVertexColors | kFeatureAlpha);
 }
 
 TEST(SceneFeatures, ManyTrianglesAreNamed) {
-  EXPECT_EQ(featuresOf(loadScene("dense-9000")) & kFeatureManyTriangles, 0u);
-  EXPECT_EQ(featuresOf(loadScene("dense-11000")) & kFeatureManyTriangles,
-            kFeatureManyTriangles);
+    EXPECT_EQ(featuresOf(loadScene("dense-9000")) & kFeatureManyTriangles, 0u);
+    EXPECT_EQ(featuresOf(loadScene("dense-11000")) & kFeatureManyTriangles, kFeatureManyTriangles);
 }
 
 TEST(SceneFeatures, LobesOfExtensionsAreNamed) {
-  Material material = lambert();
-  material.clearcoat = 0.5f;
-  EXPECT_EQ(featuresOf(material), kFeatureClearcoat | kFeatureSmoothLobes);
-  material.clearcoatRoughness = 0.5f;
-  EXPECT_EQ(featuresOf(material), kFeatureClearcoat | kFeatureRoughLobes);
-  material = lambert();
-  material.sheenColor = {0.0f, 0.1f, 0.0f};
-  EXPECT_EQ(featuresOf(material), kFeatureSheen);
-  material = lambert();
-  material.diffuseTransmission = 0.5f;
-  EXPECT_EQ(featuresOf(material), kFeatureDiffuseTransmission);
-  Material metal = lambert();
-  metal.metallic = 1.0f;
-  metal.roughness = 0.0f;
-  metal.iridescence = 0.5f;
-  EXPECT_EQ(featuresOf(metal),
-            kFeatureSpecular | kFeatureSmoothLobes | kFeatureIridescence);
-  metal.iridescence = 0.0f;
-  metal.anisotropy = 0.5f; // rough along one axis
-  EXPECT_EQ(featuresOf(metal), kFeatureSpecular | kFeatureSmoothLobes |
-                                   kFeatureRoughLobes | kFeatureAnisotropy |
-                                   kFeatureTangents);
+    Material material = lambert();
+    material.clearcoat = 0.5f;
+    EXPECT_EQ(featuresOf(material), kFeatureClearcoat | kFeatureSmoothLobes);
+    material.clearcoatRoughness = 0.5f;
+    EXPECT_EQ(featuresOf(material), kFeatureClearcoat | kFeatureRoughLobes);
+    material = lambert();
+    material.sheenColor = {0.0f, 0.1f, 0.0f};
+    EXPECT_EQ(featuresOf(material), kFeatureSheen);
+    material = lambert();
+    material.diffuseTransmission = 0.5f;
+    EXPECT_EQ(featuresOf(material), kFeatureDiffuseTransmission);
+    Material metal = lambert();
+    metal.metallic = 1.0f;
+    metal.roughness = 0.0f;
+    metal.iridescence = 0.5f;
+    EXPECT_EQ(featuresOf(metal), kFeatureSpecular | kFeatureSmoothLobes | kFeatureIridescence);
+    metal.iridescence = 0.0f;
+    metal.anisotropy = 0.5f; // rough along one axis
+    EXPECT_EQ(featuresOf(metal), kFeatureSpecular | kFeatureSmoothLobes | kFeatureRoughLobes |
+                                     kFeatureAnisotropy | kFeatureTangents);
 }
 
 TEST(SceneFeatures, OnlySolidGlassDisperses) {
-  Material glass = lambert();
-  glass.transmission = 1.0f;
-  glass.dispersion = 1.0f;
-  EXPECT_EQ(featuresOf(glass), kFeatureGlass | kFeatureRoughLobes);
-  glass.isSolid = true;
-  EXPECT_EQ(featuresOf(glass),
-            kFeatureGlass | kFeatureRoughLobes | kFeatureDispersion);
+    Material glass = lambert();
+    glass.transmission = 1.0f;
+    glass.dispersion = 1.0f;
+    EXPECT_EQ(featuresOf(glass), kFeatureGlass | kFeatureRoughLobes);
+    glass.isSolid = true;
+    EXPECT_EQ(featuresOf(glass), kFeatureGlass | kFeatureRoughLobes | kFeatureDispersion);
 }
 
 TEST(SceneFeatures, SolidsMayOverlapWhereTheirBoxesDo) {
-  Material glass = lambert();
-  glass.isSolid = true;
-  glass.diffuseTransmission = 0.5f;
-  Scene scene;
-  scene.materials = {lambert(), glass};
-  const auto addBox = [&](uint32_t material, float from, float to) {
-    Mesh mesh;
-    mesh.material = material;
-    mesh.positions = {glm::vec3(from), glm::vec3(to)};
-    scene.meshes.push_back(mesh);
-  };
-  addBox(1, 0.0f, 1.0f);
-  addBox(1, 1.0f, 2.0f); // touches it
-  addBox(0, 0.5f, 1.5f); // is none
-  EXPECT_FALSE(solidsMayOverlap(scene));
-  addBox(1, 1.75f, 3.0f);
-  EXPECT_TRUE(solidsMayOverlap(scene));
-  EXPECT_EQ(featuresOf(scene) & kFeatureSolids, kFeatureSolids);
+    Material glass = lambert();
+    glass.isSolid = true;
+    glass.diffuseTransmission = 0.5f;
+    Scene scene;
+    scene.materials = {lambert(), glass};
+    const auto addBox = [&](uint32_t material, float from, float to) {
+        Mesh mesh;
+        mesh.material = material;
+        mesh.positions = {glm::vec3(from), glm::vec3(to)};
+        scene.meshes.push_back(mesh);
+    };
+    addBox(1, 0.0f, 1.0f);
+    addBox(1, 1.0f, 2.0f); // touches it
+    addBox(0, 0.5f, 1.5f); // is none
+    EXPECT_FALSE(solidsMayOverlap(scene));
+    addBox(1, 1.75f, 3.0f);
+    EXPECT_TRUE(solidsMayOverlap(scene));
+    EXPECT_EQ(featuresOf(scene) & kFeatureSolids, kFeatureSolids);
 }
 
 TEST(SceneFeatures, LightsAndNormalsAreNamed) {
-  Scene scene;
-  scene.materials = {lambert()};
-  scene.environment = glm::vec3(1.0f);
-  scene.bounds = {glm::vec3(-1.0f), glm::vec3(1.0f)};
-  EXPECT_EQ(featuresOf(scene),
-            kFeatureEnvironment | kFeatureLights | kFeatureEnvironmentLight);
-  scene.environment = glm::vec3(0.0f);
-  scene.punctualLights.emplace_back();
-  EXPECT_EQ(featuresOf(scene), kFeaturePunctualLights | kFeatureLights);
-  scene.punctualLights.clear();
-  Mesh mesh;
-  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-  mesh.triangles = {{0, 1, 2}};
-  scene.meshes = {mesh};
-  EXPECT_EQ(featuresOf(scene), 0u);
-  scene.materials.front().emission = glm::vec3(1.0f);
-  EXPECT_EQ(featuresOf(scene), kFeatureTriangleLights | kFeatureLights);
-  scene.meshes.front().normals.assign(3, {0, 0, 1});
-  EXPECT_EQ(featuresOf(scene),
-            kFeatureTriangleLights | kFeatureLights | kFeatureShadingNormals);
+    Scene scene;
+    scene.materials = {lambert()};
+    scene.environment = glm::vec3(1.0f);
+    scene.bounds = {glm::vec3(-1.0f), glm::vec3(1.0f)};
+    EXPECT_EQ(featuresOf(scene), kFeatureEnvironment | kFeatureLights | kFeatureEnvironmentLight);
+    scene.environment = glm::vec3(0.0f);
+    scene.punctualLights.emplace_back();
+    EXPECT_EQ(featuresOf(scene), kFeaturePunctualLights | kFeatureLights);
+    scene.punctualLights.clear();
+    Mesh mesh;
+    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    mesh.triangles = {{0, 1, 2}};
+    scene.meshes = {mesh};
+    EXPECT_EQ(featuresOf(scene), 0u);
+    scene.materials.front().emission = glm::vec3(1.0f);
+    EXPECT_EQ(featuresOf(scene), kFeatureTriangleLights | kFeatureLights);
+    scene.meshes.front().normals.assign(3, {0, 0, 1});
+    EXPECT_EQ(featuresOf(scene), kFeatureTriangleLights | kFeatureLights | kFeatureShadingNormals);
 }
 
 TEST(SceneFeatures, EachKindOfCameraIsOne) {
-  Camera camera;
-  EXPECT_EQ(cameraFeatures(camera), 0u);
-  camera.lensRadius = 0.1f;
-  EXPECT_EQ(cameraFeatures(camera), kFeatureLens);
-  camera.projection = Projection::orthographic;
-  EXPECT_EQ(cameraFeatures(camera), kFeatureOrthographic);
-  camera.projection = Projection::panorama;
-  EXPECT_EQ(cameraFeatures(camera), kFeaturePanorama);
+    Camera camera;
+    EXPECT_EQ(cameraFeatures(camera), 0u);
+    camera.lensRadius = 0.1f;
+    EXPECT_EQ(cameraFeatures(camera), kFeatureLens);
+    camera.projection = Projection::orthographic;
+    EXPECT_EQ(cameraFeatures(camera), kFeatureOrthographic);
+    camera.projection = Projection::panorama;
+    EXPECT_EQ(cameraFeatures(camera), kFeaturePanorama);
 }
 
 } // namespace
