@@ -75,11 +75,11 @@ class OtherTrees : public DeviceTest {
     void prepare(Schedule schedule, const KernelSource& source = embeddedKernel) {
         settings_ = imageSettings(kSize, kSize, 16);
         settings_.work.schedule = schedule;
-        settings_ = resolveKernels(settings_, true);
-        settings_.work.waveSize = kSize * kSize * settings_.samples;
+        settings_ = resolveSchedule(settings_, true);
+        settings_.work.waveSize = kSize * kSize * settings_.stop.samples;
         const SceneFeatures features =
             sceneFeatures(scene_, lights_) | cameraFeatures(scene_.cameras.front());
-        kernels_.emplace(device(), way, settings_.estimator, features, source);
+        kernels_.emplace(device(), schedule, settings_.estimator, features, source);
     }
     [[nodiscard]] std::vector<uint32_t> filmWith(const Bvh& tree) {
         SceneData data = packScene(scene_, lights_);
@@ -89,8 +89,10 @@ class OtherTrees : public DeviceTest {
         setLights(frame, lights_);
         Film film(device(), kSize, kSize, 0);
         film.clear();
-        makeWaveRenderer(device(), settings_.work.schedule, {gpuScene, film, frame, *kernels_})
-            ->renderWave(0, {0, kSize * kSize, 0, settings_.samples, 0, 0, 0, 0, 0});
+        const auto kernel = [&](std::string_view name) -> const gpu::Kernel& { return (*kernels_)[name]; };
+        makeWaveRenderer(device(), settings_.work.schedule,
+                         {gpuScene, gpuScene.albedoTable().buffer, film, frame, kernel})
+            ->renderWave(0, {0, kSize * kSize, 0, settings_.stop.samples, 0, 0, 0, 0, 0});
         return film.bands().front().sums.downloadAll<uint32_t>();
     }
 
@@ -106,7 +108,7 @@ class OtherTrees : public DeviceTest {
 TEST_F(OtherTrees, GiveTheSameFilm) {
     const Bvh embree = buildBvh(triangles_);
     for (const Schedule schedule : {Schedule::fused, Schedule::wavefront}) {
-        prepare(way);
+        prepare(schedule);
         const std::vector<uint32_t> film = filmWith(embree);
         EXPECT_EQ(filmWith(medianBvh(triangles_)), film);
         EXPECT_EQ(filmWith(withLeavesReversed(embree)), film);
