@@ -21,19 +21,19 @@ std::vector<gpu::SpecialisationConstant> estimatorConstants(const EstimatorSetti
             {CONSTANT_FEATURES, features}};
 }
 
-std::vector<std::string_view> estimatorKernelNames(Kernels kernels) {
-    assert(kernels != Kernels::automatic);
-    if (kernels == Kernels::fused)
+std::vector<std::string_view> estimatorKernelNames(Schedule schedule) {
+    assert(schedule != Schedule::automatic);
+    if (schedule == Schedule::fused)
         return {"path", "accumulate"};
     return {"generate", "extend", "shade", "prepare", "connect", "accumulate"};
 }
 
-EstimatorKernels::EstimatorKernels(gpu::Device& device, Kernels kernels, const EstimatorSettings& settings,
+EstimatorKernels::EstimatorKernels(gpu::Device& device, Schedule schedule, const EstimatorSettings& settings,
                                    uint32_t features, const KernelSource& source)
-    : way_(kernels), constants_(estimatorConstants(settings, features)) {
+    : schedule_(schedule), constants_(estimatorConstants(settings, features)) {
     const auto start = std::chrono::steady_clock::now();
     std::vector<const gpu::Kernel*> made;
-    for (const std::string_view name : estimatorKernelNames(kernels))
+    for (const std::string_view name : estimatorKernelNames(schedule))
         made.push_back(
             &kernels_.try_emplace(std::string(name), device, source(name), constants_).first->second);
     gpu::warmUp(device, made);
@@ -58,8 +58,8 @@ void EstimatorKernels::reload(gpu::Device& device, const KernelSource& source) {
         kernels_.insert_or_assign(name, std::move(kernel));
 }
 
-bool EstimatorKernels::serve(Kernels kernels, const EstimatorSettings& settings, uint32_t features) const {
-    return kernels == way_ && estimatorConstants(settings, features) == constants_;
+bool EstimatorKernels::serve(Schedule schedule, const EstimatorSettings& settings, uint32_t features) const {
+    return schedule == schedule_ && estimatorConstants(settings, features) == constants_;
 }
 
 const gpu::Kernel& EstimatorKernels::operator[](std::string_view name) const {

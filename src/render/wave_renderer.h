@@ -54,8 +54,8 @@ struct WaveInputs {
     const EstimatorKernels& kernels;
 };
 
-// Settings::kernels must not be automatic. The device must outlive the renderer.
-[[nodiscard]] std::unique_ptr<WaveRenderer> makeWaveRenderer(gpu::Device& device, Kernels kernels,
+// The schedule must not be automatic. The device must outlive the renderer.
+[[nodiscard]] std::unique_ptr<WaveRenderer> makeWaveRenderer(gpu::Device& device, Schedule schedule,
                                                              const WaveInputs& inputs);
 
 // A band of the film with its frame parameters, added to `state`, the buffers that all bands share.

@@ -19,7 +19,7 @@ double Stopwatch::sinceLap() const {
 
 void Take::describeInputs(const gpu::Device& device, const std::vector<std::string>& changedShaders) {
     fillInputs(report, scene, renderer->settings());
-    report.settings.changedShaders = changedShaders;
+    report.settings.provenance.changedShaders = changedShaders;
     report.device = device.description();
     report.content = fingerprintsOf(*renderer);
 }

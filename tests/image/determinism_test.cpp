@@ -39,13 +39,13 @@ TEST_F(Determinism, WaveSizeChangesNoBit) {
     // With many triangles, the fused kernel puts paths by after their first vertex.
     for (const Scene& scene : {scene_, loadScene("dense-12000")}) {
         const std::vector<uint32_t> expected = renderScene(device(), scene, baseSettings()).filmWords;
-        for (const Kernels kernels : {Kernels::fused, Kernels::wavefront})
+        for (const Schedule schedule : {Schedule::fused, Schedule::wavefront})
             for (const uint32_t waveSize : {1000u, 4096u, 10007u, 65536u}) {
                 RenderSettings settings = baseSettings();
-                settings.kernels = kernels;
-                settings.waveSize = waveSize;
+                settings.work.schedule = schedule;
+                settings.work.waveSize = waveSize;
                 EXPECT_EQ(renderScene(device(), scene, settings).filmWords, expected)
-                    << scene.source << ", " << nameOf(kernels) << ", " << waveSize;
+                    << scene.source << ", " << nameOf(schedule) << ", " << waveSize;
             }
     }
 }
@@ -57,9 +57,9 @@ TEST_F(Determinism, FusedKernelsAndTheWavefrontGiveTheSameBits) {
         RenderSettings settings =
             imageSettings(40, 36, 130); // lanes of several slots, the last ones not full
         settings.estimator.roulette = Roulette::off;
-        settings.kernels = Kernels::fused;
+        settings.work.schedule = Schedule::fused;
         const RenderResult fused = renderScene(device(), scene, settings);
-        settings.kernels = Kernels::wavefront;
+        settings.work.schedule = Schedule::wavefront;
         const RenderResult wavefront = renderScene(device(), scene, settings);
         EXPECT_EQ(fused.filmWords, wavefront.filmWords) << name;
         EXPECT_EQ(fused.tallies.cutPaths, wavefront.tallies.cutPaths) << name;
@@ -94,7 +94,7 @@ TEST_F(Determinism, BandHeightChangesNoBit) {
     const std::vector<uint32_t> expected = filmOf(baseSettings());
     for (const uint32_t rows : {1u, 7u, 36u, 50u}) {
         RenderSettings settings = baseSettings();
-        settings.bandRows = rows;
+        settings.work.bandRows = rows;
         EXPECT_EQ(filmOf(settings), expected) << rows;
     }
 }
@@ -102,9 +102,9 @@ TEST_F(Determinism, BandHeightChangesNoBit) {
 TEST_F(Determinism, RangesOfSamplesAddUpExactly) {
     RenderSettings settings = baseSettings();
     const std::vector<uint32_t> expected = filmOf(settings);
-    settings.samples = 8;
+    settings.stop.samples = 8;
     const std::vector<uint32_t> first = filmOf(settings);
-    settings.firstSample = 8;
+    settings.image.firstSample = 8;
     const std::vector<uint32_t> second = filmOf(settings);
     EXPECT_NE(first, second);
     EXPECT_EQ(sumOfFilms(first, second), expected);

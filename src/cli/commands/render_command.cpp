@@ -41,9 +41,10 @@ void printSummary(const RenderReport& report) {
     fmt::print(
         "{}: {}x{}, {} samples per pixel in {:.2f} s on {} ({:.2f} M samples/s, {:.2f} M rays/s), bias "
         "ledger: {}\n",
-        report.scene, report.settings.width, report.settings.height,
-        report.samples / (uint64_t{report.settings.width} * report.settings.height), report.renderSeconds,
-        report.device.name, static_cast<double>(report.samples) / report.renderSeconds * 1e-6,
+        report.scene, report.settings.image.width, report.settings.image.height,
+        report.samples / (uint64_t{report.settings.image.width} * report.settings.image.height),
+        report.renderSeconds, report.device.name,
+        static_cast<double>(report.samples) / report.renderSeconds * 1e-6,
         static_cast<double>(report.rays.total()) / report.renderSeconds * 1e-6, ledgerText(report.ledger));
     std::fflush(stdout); // who watches wants to know now
 }
@@ -105,7 +106,7 @@ struct RenderCommand::Session {
 
     // Shaders as they are now, for the kernels to come and for the record.
     void use(const std::shared_ptr<ShaderOverlay>& overlay) {
-        settings.changedShaders = overlay->changed();
+        settings.provenance.changedShaders = overlay->changed();
         source = sourceOf(overlay);
     }
 };
@@ -192,7 +193,7 @@ int RenderCommand::runWatching(Session& session) const {
 
 Take RenderCommand::prepare(const ImportOptions& moment, Session& session) const {
     Take take;
-    take.scene = loadLit(scene_, moment, session.settings);
+    take.scene = loadLit(scene_, moment, session.settings.lighting);
     take.report.import = moment;
     const Camera camera = session.view(take.scene, options_);
     take.report.camera = camera.name;
@@ -218,7 +219,7 @@ void RenderCommand::takeSamples(Take& take, const std::function<bool()>& mayGoOn
 void RenderCommand::write(Take& take, const Outputs& files, Session& session) const {
     session.device->requireNoValidationMessages();
     RenderReport& report = take.report;
-    take.describeInputs(*session.device, session.settings.changedShaders);
+    take.describeInputs(*session.device, session.settings.provenance.changedShaders);
     const Rendering rendering = take.renderer->rendering();
     fillResults(report, *take.renderer, *session.device, rendering, take.scene);
     warnOfOverlaps(report, take.scene);
@@ -229,7 +230,7 @@ void RenderCommand::write(Take& take, const Outputs& files, Session& session) co
         writeExr(files.exr, rendering, exrMetadata(report));
     if (!files.png.empty()) {
         report.tone = session.tone;
-        writePng(files.png, report.settings.width, report.settings.height,
+        writePng(files.png, report.settings.image.width, report.settings.image.height,
                  session.toneMapper->map(take.renderer->film(), session.tone));
     }
     take.watch.lap("write");
@@ -248,7 +249,7 @@ int RenderCommand::renderMoment(const Outputs& files, const ImportOptions& momen
     Take take = prepare(moment, session);
     const InterruptGuard guard; // until all files are written: Ctrl-C loses no image
     Checkpoint& checkpoint = session.checkpoint;
-    take.describeInputs(*session.device, session.settings.changedShaders);
+    take.describeInputs(*session.device, session.settings.provenance.changedShaders);
     if (checkpoints_.isResuming())
         take.resumeFrom(checkpoint);
     takeSamples(take, [&] {

@@ -60,15 +60,15 @@ glm::uvec2 TraceCommand::pixelIn(const RenderSettings& settings) const {
     const std::vector<std::string_view> words = splitAt(pixel_, ',');
     const auto x = parseNumber<uint32_t>(words.front());
     const auto y = parseNumber<uint32_t>(words.back());
-    if (words.size() != 2 || !x || !y || *x >= settings.width || *y >= settings.height)
+    if (words.size() != 2 || !x || !y || *x >= settings.image.width || *y >= settings.image.height)
         throw UsageError(fmt::format("--pixel: {} is not X,Y within the image's {} x {} pixels", pixel_,
-                                     settings.width, settings.height));
+                                     settings.image.width, settings.image.height));
     return {*x, *y};
 }
 
 int TraceCommand::run() {
     RenderSettings settings = options_.settings();
-    const Scene scene = loadLit(scene_, sceneOptions_.importOptions(), settings);
+    const Scene scene = loadLit(scene_, sceneOptions_.importOptions(), settings.lighting);
     for (const std::string& warning : scene.warnings)
         spdlog::warn("{}", warning);
     const Camera camera = options_.cameraOf(scene);
@@ -83,7 +83,7 @@ int TraceCommand::run() {
 
     Json json;
     json["scene"] = scene.source;
-    json["size"] = {settings.width, settings.height};
+    json["size"] = {settings.image.width, settings.image.height};
     json["pixel"] = {pixel.x, pixel.y};
     json["sample"] = sample_;
     json["radiance"] = list(path.radiance);

@@ -31,12 +31,12 @@ ViewCommand::ViewCommand(CLI::App& app)
 // Without --spp, until the window is closed.
 RenderSettings ViewCommand::settings() {
     RenderSettings settings = options_.settings();
-    if (settings.seconds > 0.0 || settings.targetError > 0.0)
+    if (settings.stop.seconds > 0.0 || settings.stop.targetError > 0.0)
         throw UsageError("--time and --target-error: a window renders until it is closed, or to --spp");
     if (parser().count("--spp") == 0)
-        settings.samples = std::numeric_limits<int32_t>::max();
-    if (settings.waveSize == 0)
-        settings.waveSize = kWaveSize;
+        settings.stop.samples = std::numeric_limits<int32_t>::max();
+    if (settings.work.waveSize == 0)
+        settings.work.waveSize = kWaveSize;
     return settings;
 }
 
@@ -47,17 +47,18 @@ int ViewCommand::run() {
         shaders_.watchIfThere();
     const std::shared_ptr<ShaderOverlay> overlay = shaders_.overlay();
     const ImportOptions import = sceneOptions_.importOptions();
-    auto scene = std::make_shared<const Scene>(loadLit(scene_, import, settings));
+    auto scene = std::make_shared<const Scene>(loadLit(scene_, import, settings.lighting));
     for (const std::string& warning : scene->warnings)
         spdlog::warn("{}", warning);
     const Camera camera = options_.cameraOf(*scene);
     settings = resolveSize(settings, camera);
     checkSettings(settings);
-    ViewState view{
-        scene_,   import,          scene, CameraRig(camera, scene->bounds), camera, settings.cameraOptions,
-        settings, tone_.settings()};
+    ViewState view{scene_,   import,
+                   scene,    CameraRig(camera, scene->bounds),
+                   camera,   settings.provenance.cameraOptions,
+                   settings, tone_.settings()};
     const auto load = [](const SceneOrder& order) {
-        return loadLit(order.source, order.import, order.settings);
+        return loadLit(order.source, order.import, order.lighting);
     };
     ViewerConfig config{std::move(view), options_.device(), load, overlay,
                         shaders_.isWatching() ? shaders_.folder() : std::string()};

@@ -20,7 +20,7 @@ class EnvironmentOptions {
     EnvironmentOptions& operator=(const EnvironmentOptions&) = delete;
 
     // Throws UsageError naming the option and what it takes.
-    void applyTo(RenderSettings& settings) const;
+    [[nodiscard]] LightingSettings lighting() const;
 
   private:
     CLI::App* parser_; // asked which options were given
@@ -29,9 +29,10 @@ class EnvironmentOptions {
     float intensity_ = 1.0f;
 };
 
-// The scene, built in or a file, with the environment map that the settings name, if they do. What had to be
-// changed in the map becomes a warning of the scene. Throws Error for a file that is no scene, or no map.
+// The scene, built in or a file, with the environment map that the lighting names, if it names one. What had
+// to be changed in the map becomes a warning of the scene. Throws Error for a file that is no scene, or no
+// map.
 [[nodiscard]] Scene loadLit(const std::string& nameOrPath, ImportOptions options,
-                            const RenderSettings& settings);
+                            const LightingSettings& lighting);
 
 } // namespace lavalight
