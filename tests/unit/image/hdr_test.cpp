@@ -91,7 +91,7 @@ TEST_F(HdrTest, WhatIsNoWholeMapIsRefused) {
     expectRefusal(kHead + "\n-Y 1 +X 8\n" + std::string{2, 2, 0, 9, 8, 1} + rest, "claims 9 pixels of 8");
 }
 
-// Before 1.6 GB are taken, and before 3.2 GB are decoded that no environment can use.
+// The refusal comes before 1.6 GB are taken, and before 3.2 GB are decoded that no environment can use.
 TEST_F(HdrTest, PixelsThatCannotBeInTheFileAndImagesBeyondTheLimitAreRefusedByTheHeader) {
     expectRefusal(kHead + "\n-Y 8192 +X 16384\n" + std::string(8192 * 12 - 1, '\1'),
                   "ends within its pixels");
