@@ -78,7 +78,7 @@ TEST_F(HdrTest, WhatIsNoWholeMapIsRefused) {
     EXPECT_EQ(read(good).height, 2u);
     for (size_t length = 0; length < good.size(); ++length)
         EXPECT_THROW((void)read(good.substr(0, length)), Error) << length << " bytes";
-    expectRefusal("\x89PNG\n", "does not begin");
+    expectRefusal("\x89PNG\n", "not a Radiance HDR file");
     expectRefusal(kHead + "\n-Y 0 +X 4\n", "0 pixels");
     expectRefusal(kHead + "\n-Y 2000000000 +X 2000000000\n", "the limit is 16384");
     expectRefusal(kHead + "\n+X 1 -Y 1\n" + texel(1, 1, 1, 1), "left to right");
