@@ -37,6 +37,8 @@ void Commands::begin() {
     checked("begin", "a command buffer", [&] {
         for (size_t i = 0; i < marked_.size(); ++i)
             marks_[i].reset();
+        device_->handle().resetFences(*fence_);
+        buffers_.front().reset(); // a failure may have left it half recorded
         buffers_.front().begin(vk::CommandBufferBeginInfo(vk::CommandBufferUsageFlagBits::eOneTimeSubmit));
     });
     stamps_.clear();
@@ -123,7 +125,6 @@ void Commands::submitAndWait() {
         device_->queue().submit(submit, *fence_);
         if (!waitForFence())
             endProcess();
-        device_->handle().resetFences(*fence_);
     });
     collectTimes();
 }

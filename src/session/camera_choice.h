@@ -13,7 +13,7 @@ namespace lavalight {
 
 // Lengths in metres. Members have the names of the command line's options.
 struct CameraChoice {
-    std::string name;                 // a camera of the scene by name or index; empty: the first
+    std::string name;                  // a camera of the scene by name or index; empty: the first
     std::optional<glm::vec3> lookFrom; // a camera at this place; with lookAt, instead of the scene's
     std::optional<glm::vec3> lookAt;   // the point in the middle of the image
     std::optional<glm::vec3> up;       // default: +Y

@@ -13,9 +13,10 @@ namespace {
 void readEnvironmentMap(const std::string& path, Scene& scene) {
     EnvironmentFile file = readEnvironmentFile(path);
     if (file.badTexels > 0)
-        scene.warnings.push_back(fmt::format("{}: {} of {} pixels had negative, infinite or undefined values, "
-                                             "which were set to 0",
-                                             path, file.badTexels, file.image.pixels.size()));
+        scene.warnings.push_back(
+            fmt::format("{}: {} of {} pixels had negative, infinite or undefined values, "
+                        "which were set to 0",
+                        path, file.badTexels, file.image.pixels.size()));
     scene.environmentMap = {path, std::move(file.image), file.badTexels};
 }
 

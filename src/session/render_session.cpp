@@ -33,8 +33,7 @@ PreparedScene prepareScene(const RenderPlan& plan, const ImportOptions& moment) 
 }
 
 void RenderSession::use(const std::shared_ptr<ShaderOverlay>& overlay) {
-    plan_.settings.provenance.changedShaders =
-        overlay ? overlay->changed() : std::vector<std::string>();
+    plan_.settings.provenance.changedShaders = overlay ? overlay->changed() : std::vector<std::string>();
     source_ = sourceOf(overlay);
 }
 

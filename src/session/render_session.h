@@ -33,8 +33,8 @@ struct PreparedScene {
     RenderSettings settings;
 };
 
-// Loads the plan's scene at a moment of its animation, logs its warnings, and chooses the camera. Throws Error
-// or UsageError naming the option.
+// Loads the plan's scene at a moment of its animation, logs its warnings, and chooses the camera. Throws
+// Error or UsageError naming the option.
 [[nodiscard]] PreparedScene prepareScene(const RenderPlan& plan, const ImportOptions& moment);
 
 // Keeps from one image to the next what can be kept: the device, kernels that serve, and the camera that

@@ -28,8 +28,9 @@ RenderPlan smallPlan(uint32_t seed = 0) {
 }
 
 // Renders to the end; `keepGoing` may stop it.
-RenderJob rendered(RenderSession& session, const Outputs& outputs = {},
-                   const RenderJob::KeepGoing& keepGoing = [](double) { return true; }) {
+RenderJob rendered(
+    RenderSession& session, const Outputs& outputs = {},
+    const RenderJob::KeepGoing& keepGoing = [](double) { return true; }) {
     RenderJob job = session.prepare({}, outputs);
     Checkpoint none({}, {});
     session.render(job, none, false, keepGoing);
@@ -54,8 +55,10 @@ TEST(Session, TwoAtOnceInThreadsHaveTheBitsOfOneAfterTheOther) {
 
 TEST(Session, ACallbackThatSaysNoEndsTheRenderAndTheImageSoFarIsWritten) {
     const TemporaryFolder folder;
-    const Outputs outputs{(folder.path() / "a.exr").string(), (folder.path() / "a.png").string(),
-                          (folder.path() / "a.json").string(), {}};
+    const Outputs outputs{(folder.path() / "a.exr").string(),
+                          (folder.path() / "a.png").string(),
+                          (folder.path() / "a.json").string(),
+                          {}};
     RenderPlan plan = smallPlan();
     plan.settings.work.waveSize = 24 * 16; // one sample a wave
     RenderSession session(plan);

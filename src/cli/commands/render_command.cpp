@@ -24,8 +24,9 @@ void printSummary(const RenderReport& report) {
         "{}: {}x{}, {} samples per pixel in {:.2f} s on {} ({:.2f} M samples/s, {:.2f} M rays/s), bias "
         "ledger: {}\n",
         report.scene, report.settings.image.width, report.settings.image.height,
-        report.samples / (uint64_t{report.settings.image.width} * report.settings.image.height), report.renderSeconds,
-        report.device.name, static_cast<double>(report.samples) / report.renderSeconds * 1e-6,
+        report.samples / (uint64_t{report.settings.image.width} * report.settings.image.height),
+        report.renderSeconds, report.device.name,
+        static_cast<double>(report.samples) / report.renderSeconds * 1e-6,
         static_cast<double>(report.rays.total()) / report.renderSeconds * 1e-6, ledgerText(report.ledger));
     std::fflush(stdout); // who watches wants to know now
 }
@@ -79,9 +80,8 @@ int RenderCommand::run() {
         return runSequence(session);
     requireOutputs(outputs_);
     Checkpoint checkpoint(outputs_.checkpoint, checkpoints_.interval());
-    return shaders_.isWatching()
-               ? runWatching(session)
-               : renderMoment(session, sceneOptions_.importOptions(), outputs_, checkpoint);
+    return shaders_.isWatching() ? runWatching(session)
+                                 : renderMoment(session, sceneOptions_.importOptions(), outputs_, checkpoint);
 }
 
 int RenderCommand::runSequence(RenderSession& session) const {

@@ -26,7 +26,7 @@ Json vertexJson(const TracedVertex& vertex, uint32_t number, const Scene& scene)
     if (!std::isinf(vertex.t)) {
         json["position"] = list(vertex.position);
         json["distance"] = vertex.t;
-        json["triangle"] = vertex.triangle;
+        json["triangle"] = vertex.surface.primitive;
         json["side"] = (vertex.flags & kTracedFront) != 0 ? "front" : "back";
         json["material"] = scene.materials[vertex.material].name;
     }
@@ -82,7 +82,8 @@ int TraceCommand::run() {
     json["sample"] = sample_;
     json["radiance"] = list(path.radiance);
     for (size_t i = 0; i < path.vertices.size(); ++i)
-        json["vertices"].push_back(vertexJson(path.vertices[i], static_cast<uint32_t>(i + 1), prepared.scene));
+        json["vertices"].push_back(
+            vertexJson(path.vertices[i], static_cast<uint32_t>(i + 1), prepared.scene));
     fmt::print("{}\n", json.dump(2));
     return 0;
 }

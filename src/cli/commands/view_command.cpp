@@ -49,14 +49,10 @@ int ViewCommand::run() {
     PreparedScene prepared = prepareScene(plan, import);
     const auto scene = std::make_shared<const Scene>(std::move(prepared.scene));
     const RenderSettings& settings = prepared.settings;
-    ViewState view{scene_,
-                   import,
-                   scene,
-                   CameraRig(prepared.camera, scene->bounds),
-                   prepared.camera,
-                   settings.provenance.cameraOptions,
-                   settings,
-                   tone_.settings()};
+    ViewState view{scene_,          import,
+                   scene,           CameraRig(prepared.camera, scene->bounds),
+                   prepared.camera, settings.provenance.cameraOptions,
+                   settings,        tone_.settings()};
     ViewerConfig config{std::move(view), plan.device, overlay,
                         shaders_.isWatching() ? shaders_.folder() : std::string()};
     gpu::checked("draw", "the window", [&] { Viewer(std::move(config)).run(); });

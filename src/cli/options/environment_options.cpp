@@ -38,23 +38,25 @@ EnvironmentOptions::EnvironmentOptions(CLI::App& parser) : parser_(&parser) {
         ->type_name("X");
 }
 
-void EnvironmentOptions::applyTo(RenderSettings& settings) const {
-    settings.environmentRotation = rotation_;
-    settings.environmentIntensity = intensity_;
+LightingSettings EnvironmentOptions::lighting() const {
+    LightingSettings lighting;
+    lighting.rotation = rotation_;
+    lighting.intensity = intensity_;
     if (const std::optional<glm::vec3> radiance = parseVector(environment_)) {
         if (glm::any(glm::lessThan(*radiance, glm::vec3(0.0f))))
             throw UsageError(fmt::format("--env: a radiance in \"{}\" is below 0", environment_));
-        settings.environment = radiance;
+        lighting.constant = radiance;
     } else if (isMapName(environment_)) {
-        settings.environmentFile = environment_;
+        lighting.mapFile = environment_;
     } else if (parser_->count("--env") > 0) {
         throw UsageError(
             fmt::format("--env: \"{}\" is neither R,G,B with three radiances of 0 or more nor the "
                         "name of a .hdr or .exr file",
                         environment_));
     }
-    if (parser_->count("--env-rotation") > 0 && settings.environmentFile.empty())
+    if (parser_->count("--env-rotation") > 0 && lighting.mapFile.empty())
         throw UsageError("--env-rotation: there is no map to turn; give one with --env FILE");
+    return lighting;
 }
 
 } // namespace lavalight

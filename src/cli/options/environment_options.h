@@ -18,7 +18,7 @@ class EnvironmentOptions {
     EnvironmentOptions& operator=(const EnvironmentOptions&) = delete;
 
     // Throws UsageError naming the option and what it takes.
-    void applyTo(RenderSettings& settings) const;
+    [[nodiscard]] LightingSettings lighting() const;
 
   private:
     CLI::App* parser_; // asked which options were given

@@ -1,9 +1,10 @@
-// What a scene is said to have: a feature that it has and that is not reported would be missing from its
-// image.
+// What a scene is said to have: a feature that it has and that is not reported
+// would be missing from its image.
 #include <gtest/gtest.h>
 
 #include "device_scene/scene_features.h"
 #include "session/builtin.h"
+#include "shared/frame.h"
 #include "shared/scene.h"
 
 namespace lavalight::test {
@@ -16,15 +17,21 @@ Material lambert() {
     return material;
 }
 
-uint32_t featuresOf(const Scene& scene) {
+SceneFeatures featuresOf(const Scene& scene) {
     return sceneFeatures(scene, collectLights(scene, scene.environment, LightSelection::power));
 }
 
-uint32_t featuresOf(const Material& material) {
+SceneFeatures featuresOf(const Material& material) {
     Scene scene;
     scene.materials = {lambert(), material};
     scene.meshes.emplace_back().material = 1;
     return featuresOf(scene);
+}
+
+TEST(SceneFeatures, ReachKernelsAsTwoWords) {
+    const auto words = featureConstants(kFeatureGlass | kFeatureLights | kFeatureLens | kFeatureSolids);
+    EXPECT_EQ(words[0], (gpu::SpecialisationConstant{CONSTANT_FEATURES, 1u << 1 | 1u << 22}));
+    EXPECT_EQ(words[1], (gpu::SpecialisationConstant{CONSTANT_MORE_FEATURES, 1u << 0 | 1u << 3}));
 }
 
 TEST(SceneFeatures, LambertSurfacesHaveNone) {

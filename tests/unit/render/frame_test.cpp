@@ -22,8 +22,8 @@ Camera tiltedCamera() {
 
 RenderSettings sized(uint32_t width, uint32_t height) {
     RenderSettings settings;
-    settings.width = width;
-    settings.height = height;
+    settings.image.width = width;
+    settings.image.height = height;
     return settings;
 }
 
@@ -47,8 +47,8 @@ TEST(ResolveSize, GivenSizeIsKept) {
     Camera camera;
     camera.aspect = 3.0f;
     const RenderSettings settings = resolveSize(sized(20, 30), camera);
-    EXPECT_EQ(settings.width, 20u);
-    EXPECT_EQ(settings.height, 30u);
+    EXPECT_EQ(settings.image.width, 20u);
+    EXPECT_EQ(settings.image.height, 30u);
 }
 
 TEST(ResolveSize, ExtremeAspectRatiosStayWithinTheLimits) {
@@ -89,7 +89,7 @@ TEST(Frame, SettingsReachTheKernels) {
     settings.estimator.seed = 11;
     settings.estimator.maxBounces = 12;
     settings.estimator.rouletteStart = 13;
-    settings.waveSize = 1400;
+    settings.work.waveSize = 1400;
     const FrameParameters frame = makeFrame(Scene(), Camera(), settings);
     EXPECT_EQ(frame.seed, 11u);
     EXPECT_EQ(frame.maxBounces, 12u);

@@ -104,9 +104,8 @@ TEST(CameraChoice, EqualChoicesHaveEqualDescriptionsAndEveryMemberShowsInThem) {
     choice.aperture = 0.25f;
     choice.focus = 1.5f;
     choice.panorama = true;
-    const OptionPairs expected{{"look-from", "0,0,4"}, {"look-at", "0,0,1"}, {"up", "0,1,0"},
-                               {"fov", "30"},          {"aperture", "0.25"}, {"focus", "1.5"},
-                               {"panorama", "on"}};
+    const OptionPairs expected{{"look-from", "0,0,4"}, {"look-at", "0,0,1"}, {"up", "0,1,0"},   {"fov", "30"},
+                               {"aperture", "0.25"},   {"focus", "1.5"},     {"panorama", "on"}};
     EXPECT_EQ(describe(choice), expected);
 }
 
