@@ -62,7 +62,7 @@ double solidAngle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c)
                             la * lb * lc + glm::dot(a, b) * lc + glm::dot(a, c) * lb + glm::dot(b, c) * la);
 }
 
-// Over kSamples samples.
+// Sums over kSamples samples.
 struct SampleSums {
     double sum = 0.0;
     double squares = 0.0;
@@ -200,7 +200,7 @@ TEST_F(LightTest, EmissionOverPdfIntegratesToRadianceTimesSolidAngle) {
     }
 }
 
-// Of equal lamps strewn over a plane, those nearby bring nearly all.
+// The nearest of equal lamps strewn over a plane bring nearly all light.
 TEST_F(LightTest, UnderManyLampsTheTreeHasAFortiethOfTheVarianceOfPickingByPower) {
     Random random(5);
     Scene scene;
@@ -227,7 +227,7 @@ TEST_F(LightTest, UnderManyLampsTheTreeHasAFortiethOfTheVarianceOfPickingByPower
 // Irradiance at a hundredth of the light's width below its middle: by area, the
 // few points right above carry it all.
 TEST_F(LightTest, NearALargeQuadTheVarianceIsATenthOfThatOfAreaSampling) {
-    constexpr float kDistance = 0.01f; // of a square with sides of 1
+    constexpr float kDistance = 0.01f; // distance from a square with sides of 1
     Material material;
     material.emission = glm::vec3(1.0f);
     Scene scene;

@@ -21,7 +21,7 @@ struct Box {
     [[nodiscard]] bool isEmpty() const { return glm::any(glm::greaterThan(lower, upper)); }
 };
 
-// Exact where origin and extent are within 2^29 of each other in size.
+// The box of a slot, exact where origin and extent are within 2^29 of each other in size.
 inline Box childBox(const BvhNode& node, uint32_t slot) {
     Box box{};
     const auto byte = [&](const glm::uvec2& plane) {

@@ -28,7 +28,7 @@ DeviceOptions::DeviceOptions(CLI::App& parser) {
 
 gpu::DeviceConfig DeviceOptions::config() const {
     if (!(config_.kernelTimeout >= 0.0)) // NaN is not
-        throw UsageError("--kernel-timeout is a number of seconds, 0 or more");
+        throw UsageError("--kernel-timeout: not a number of seconds; give 0 or more");
     return config_;
 }
 

@@ -153,8 +153,8 @@ TEST(SceneFeatures, SolidsMayOverlapWhereTheirBoxesDo) {
         scene.meshes.push_back(mesh);
     };
     addBox(1, 0.0f, 1.0f);
-    addBox(1, 1.0f, 2.0f); // touches it
-    addBox(0, 0.5f, 1.5f); // is none
+    addBox(1, 1.0f, 2.0f); // a solid that touches it
+    addBox(0, 0.5f, 1.5f); // no solid
     EXPECT_FALSE(solidsMayOverlap(scene));
     addBox(1, 1.75f, 3.0f);
     EXPECT_TRUE(solidsMayOverlap(scene));
