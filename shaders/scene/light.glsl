@@ -81,7 +81,7 @@ LightSample sampleLight(FrameParameters frame, Receiver receiver, vec3 n, uvec2 
         light = sampleTriangleLight(receiver.p, u, index);
     if (sceneHas(kFeaturePunctualLights) && kind == kLightPunctual)
         light = samplePunctualLight(receiver.p, index, reach);
-    if (sceneHas(kFeatureEnvironment | kFeatureEnvironmentMap) && kind == kLightEnvironment)
+    if ((sceneHas(kFeatureEnvironment) || sceneHas(kFeatureEnvironmentMap)) && kind == kLightEnvironment)
         light = sampleEnvironment(frame, receiver.p, n, u, reach);
     light.pdf *= pick.pmf;
     return light;

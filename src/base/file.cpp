@@ -99,7 +99,7 @@ void requireReplaceable(const fs::path& path) {
         throwUnwritable(path, "not a regular file");
     const fs::path folder = path.parent_path();
     if (!folder.empty() && fs::status(folder, code).type() == fs::file_type::not_found)
-        throwUnwritable(path, fmt::format("there is no folder {}", folder.string()));
+        throwUnwritable(path, fmt::format("the directory {} does not exist", folder.string()));
 }
 
 } // namespace

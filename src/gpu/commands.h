@@ -41,9 +41,7 @@ class Commands {
     void fill(const Buffer& buffer, uint32_t value);
     void copy(const Buffer& from, const Buffer& to, uint64_t bytes);
     // Ends recording, runs, and returns when all is done. Throws Error where the device fails or is lost.
-    // Where it takes longer than the device's kernelTimeout, the process ends at once with a message and exit
-    // code 1: what a device works on cannot be taken back from it, so that there is no way to go on, or to
-    // clean up.
+    // Where it takes longer than the device's kernelTimeout, DeviceConfig::onKernelTimeout is called.
     void submitAndWait();
 
     // Sums over all submissions so far; empty on a queue without timestamps.
@@ -56,7 +54,7 @@ class Commands {
     void mark(const std::string& kernel);
     void waitUntilIdle() const;
     [[nodiscard]] bool waitForFence() const;
-    [[noreturn]] void endProcess() const;
+    void reportTimeout() const;
     [[nodiscard]] std::string unfinishedKernel() const;
     void collectTimes();
 

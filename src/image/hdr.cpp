@@ -78,7 +78,7 @@ Number parse(std::string_view text, const char* what) {
     Number value{};
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc() || end != text.data() + text.size())
-        throw Error(fmt::format("its {} is no number", what));
+        throw Error(fmt::format("its {} is not a number", what));
     return value;
 }
 
@@ -94,7 +94,7 @@ std::string_view trimmed(std::string_view text) {
 // were multiplied.
 float readVariables(Reader& reader) {
     if (!reader.line().starts_with("#?"))
-        throw Error("it does not begin as a Radiance HDR file does");
+        throw Error("it is not a Radiance HDR file");
     float exposure = 1.0f;
     for (std::string_view line = reader.line(); !line.empty(); line = reader.line()) {
         if (line.starts_with("FORMAT=") && trimmed(line.substr(7)) != "32-bit_rle_rgbe")

@@ -3,12 +3,14 @@
 #include <cassert>
 #include <chrono>
 
+#include "device_scene/scene_features.h"
 #include "gpu/warm_up.h"
 
 namespace lavalight {
 
 std::vector<gpu::SpecialisationConstant> estimatorConstants(const EstimatorSettings& settings,
-                                                            uint32_t features) {
+                                                            SceneFeatures features) {
+    const auto [first, second] = featureConstants(features);
     return {{CONSTANT_SAMPLER, static_cast<uint32_t>(settings.sampler)},
             {CONSTANT_HEMISPHERE, static_cast<uint32_t>(settings.hemisphere)},
             {CONSTANT_NEE, settings.nextEventEstimation ? 1u : 0u},
@@ -18,7 +20,8 @@ std::vector<gpu::SpecialisationConstant> estimatorConstants(const EstimatorSetti
             {CONSTANT_FRESNEL, static_cast<uint32_t>(settings.fresnel)},
             {CONSTANT_MULTIPLE_SCATTERING, settings.multipleScattering ? 1u : 0u},
             {CONSTANT_TEXTURE_FILTER, static_cast<uint32_t>(settings.textureFilter)},
-            {CONSTANT_FEATURES, features}};
+            first,
+            second};
 }
 
 std::vector<std::string_view> estimatorKernelNames(Schedule schedule) {
@@ -29,7 +32,7 @@ std::vector<std::string_view> estimatorKernelNames(Schedule schedule) {
 }
 
 EstimatorKernels::EstimatorKernels(gpu::Device& device, Schedule schedule, const EstimatorSettings& settings,
-                                   uint32_t features, const KernelSource& source)
+                                   SceneFeatures features, const KernelSource& source)
     : schedule_(schedule), constants_(estimatorConstants(settings, features)) {
     const auto start = std::chrono::steady_clock::now();
     std::vector<const gpu::Kernel*> made;
@@ -64,7 +67,7 @@ void EstimatorKernels::replace(KernelMap compiled) noexcept {
     kernels_.merge(compiled); // kernels stay at their addresses, which bound ones know
 }
 
-bool EstimatorKernels::serve(Schedule schedule, const EstimatorSettings& settings, uint32_t features) const {
+bool EstimatorKernels::serve(Schedule schedule, const EstimatorSettings& settings, SceneFeatures features) const {
     return schedule == schedule_ && estimatorConstants(settings, features) == constants_;
 }
 

@@ -12,13 +12,14 @@
 #include "gpu/kernel.h"
 #include "kernels/kernel_source.h"
 #include "render/settings.h"
+#include "shared/features.h"
 
 namespace lavalight {
 
-// For lib/estimator.glsl and lib/features.glsl; `features`: of the scene, kFeature... bits. Kernels ignore
-// constants that they do not declare.
+// For lib/estimator.glsl and lib/features.glsl; `features`: of the scene,
+// kFeature... bits. Kernels ignore constants that they do not declare.
 [[nodiscard]] std::vector<gpu::SpecialisationConstant> estimatorConstants(const EstimatorSettings& settings,
-                                                                          uint32_t features);
+                                                                          SceneFeatures features);
 
 // Names of the kernels that the schedule runs; it must not be automatic.
 [[nodiscard]] std::vector<std::string_view> estimatorKernelNames(Schedule schedule);
@@ -30,7 +31,7 @@ class EstimatorKernels {
   public:
     // The schedule must not be automatic.
     EstimatorKernels(gpu::Device& device, Schedule schedule, const EstimatorSettings& settings,
-                     uint32_t features, const KernelSource& source);
+                     SceneFeatures features, const KernelSource& source);
 
     // Names of the kernels whose code `source` changes. Throws Error as `source` does.
     [[nodiscard]] std::vector<std::string> changed(const KernelSource& source) const;
@@ -43,7 +44,7 @@ class EstimatorKernels {
     [[nodiscard]] const gpu::Kernel& operator[](std::string_view name) const;
     [[nodiscard]] const KernelMap& all() const { return kernels_; }
     // Whether they are what the constructor would make of these.
-    [[nodiscard]] bool serve(Schedule schedule, const EstimatorSettings& settings, uint32_t features) const;
+    [[nodiscard]] bool serve(Schedule schedule, const EstimatorSettings& settings, SceneFeatures features) const;
     // For another render, which they cost no time.
     [[nodiscard]] EstimatorKernels handOn() && {
         seconds_ = 0.0;

@@ -132,7 +132,7 @@ struct Renderer::Setup {
     SceneData scene;
     LightSelection lightSelection;
 
-    using MakeKernels = std::function<EstimatorKernels(uint32_t features)>;
+    using MakeKernels = std::function<EstimatorKernels(SceneFeatures features)>;
 
     static Setup make(const Scene& scene, const Camera& camera, const RenderSettings& settings,
                       const MakeKernels& makeKernels) {
@@ -153,7 +153,7 @@ Renderer::Renderer(gpu::Device& device, const Scene& scene, const Camera& camera
     : Renderer(
           device, resolveSchedule(wanted, device.description().isCpu),
           [&](const RenderSettings& settings) {
-              return Setup::make(scene, camera, settings, [&](uint32_t features) {
+              return Setup::make(scene, camera, settings, [&](SceneFeatures features) {
                   return EstimatorKernels(device, settings.work.schedule, settings.estimator, features,
                                           source);
               });
@@ -165,7 +165,7 @@ Renderer::Renderer(gpu::Device& device, const Scene& scene, const Camera& camera
     : Renderer(
           device, resolveSchedule(wanted, device.description().isCpu),
           [&](const RenderSettings& settings) {
-              return Setup::make(scene, camera, settings, [&](uint32_t features) {
+              return Setup::make(scene, camera, settings, [&](SceneFeatures features) {
                   if (earlier.serve(settings.work.schedule, settings.estimator, features))
                       return std::move(earlier);
                   return EstimatorKernels(device, settings.work.schedule, settings.estimator, features,
@@ -231,7 +231,7 @@ void Renderer::restart(const Scene& scene, const Camera& camera, const RenderSet
     fresh.settings.estimator.lightSelection = settings_.estimator.lightSelection;
     fresh.frame = makeFrame(scene, camera, fresh.settings);
     copyLights(frame_, fresh.frame);
-    const uint32_t features = sceneFeatures_ | cameraFeatures(camera);
+    const SceneFeatures features = sceneFeatures_ | cameraFeatures(camera);
     const EstimatorSettings& estimator = fresh.settings.estimator;
     if (!kernels_.serve(fresh.settings.work.schedule, estimator, features))
         fresh.kernels.emplace(*device_, fresh.settings.work.schedule, estimator, features, source);

@@ -104,7 +104,7 @@ class Renderer {
     gpu::Device* device_;
     RenderSettings settings_;
     FrameParameters frame_;
-    uint32_t sceneFeatures_; // kFeature..., without the camera's
+    SceneFeatures sceneFeatures_; // kFeature..., without the camera's
     EstimatorKernels kernels_;
     GpuScene scene_;
     Film film_;

@@ -24,7 +24,7 @@ void warnOfOverlaps(RenderReport& report, const Scene& scene) {
 
 void addPartsOfStages(RenderReport& report, const RenderJob& job) {
     report.stages = job.watch.stages();
-    report.stages.emplace_back("prepareBvh", job.renderer->scene().bvhSeconds());
+    report.stages.emplace_back("prepareBvh", job.renderer->scene().accelerator().buildSeconds());
     report.stages.emplace_back("prepareKernels", job.renderer->kernels().seconds());
     if (job.toFirstSamples)
         report.stages.emplace_back("processToFirstSamples", *job.toFirstSamples);

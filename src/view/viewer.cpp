@@ -163,7 +163,7 @@ void Viewer::takeInspection(const PixelInspection& inspection) {
     if (inspection.scene != view_.scene)
         return; // another one came in between
     const bool isHit =
-        !inspection.path.vertices.empty() && (inspection.path.vertices.front().triangle != kNoTriangle);
+        !inspection.path.vertices.empty() && isSurface(inspection.path.vertices.front().surface);
     if (purpose_ == Purpose::look)
         inspection_ = inspection;
     else if (isHit && purpose_ == Purpose::centre)

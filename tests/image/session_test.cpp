@@ -84,6 +84,18 @@ TEST(Session, KernelsOfOneImageServeTheNextAndItsBitsAreThoseOfAFreshSession) {
     EXPECT_EQ(second.renderer->film().read().words, words);
 }
 
+// A library does not end the process: what a slow kernel means is the caller's to say.
+TEST(Session, AKernelThatTakesLongerThanAllowedIsReportedAndWaitedFor) {
+    RenderPlan plan = smallPlan(1);
+    std::vector<std::string> reports;
+    plan.device.kernelTimeout = 1e-6;
+    plan.device.onKernelTimeout = [&](const std::string& message) { reports.push_back(message); };
+    RenderSession session(plan);
+    EXPECT_EQ(rendered(session).renderer->film().read().words, filmOf(1));
+    ASSERT_FALSE(reports.empty());
+    EXPECT_NE(reports.front().find("--kernel-timeout"), std::string::npos) << reports.front();
+}
+
 TEST(Session, FailuresAreExceptionsThatNameWhatFailed) {
     RenderPlan plan = smallPlan();
     plan.scene = "no-such-scene";

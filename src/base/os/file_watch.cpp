@@ -27,7 +27,7 @@ constexpr uint32_t kSaves =
 
 FileWatch::FileWatch(fs::path folder, Means means) : folder_(std::move(folder)) {
     if (!fs::is_directory(folder_))
-        throw Error(fmt::format("cannot watch {}: it is no folder", folder_.string()));
+        throw Error(fmt::format("cannot watch {}: it is not a directory", folder_.string()));
     if (means == Means::automatic)
         notices_ = inotify_init1(IN_NONBLOCK | IN_CLOEXEC);
     watchFolders();

@@ -26,7 +26,7 @@ Json vertexJson(const TracedVertex& vertex, uint32_t number, const Scene& scene)
     if (!std::isinf(vertex.t)) {
         json["position"] = list(vertex.position);
         json["distance"] = vertex.t;
-        json["triangle"] = vertex.triangle;
+        json["triangle"] = vertex.surface.primitive;
         json["side"] = (vertex.flags & kTracedFront) != 0 ? "front" : "back";
         json["material"] = scene.materials[vertex.material].name;
     }

@@ -34,13 +34,13 @@ void expectNear(const glm::vec3& a, const glm::vec3& b) {
 TEST(ResolveSize, OpenWidthFollowsTheCamerasAspectRatio) {
     Camera camera;
     camera.aspect = 1.5f;
-    EXPECT_EQ(resolveSize(sized(0, 512), camera).width, 768u);
+    EXPECT_EQ(resolveSize(sized(0, 512), camera).image.width, 768u);
     camera.aspect = 0.333f;
-    EXPECT_EQ(resolveSize(sized(0, 100), camera).width, 33u);
+    EXPECT_EQ(resolveSize(sized(0, 100), camera).image.width, 33u);
 }
 
 TEST(ResolveSize, WithoutAnAspectRatioTheImageIsSixteenToNine) {
-    EXPECT_EQ(resolveSize(sized(0, 90), Camera()).width, 160u);
+    EXPECT_EQ(resolveSize(sized(0, 90), Camera()).image.width, 160u);
 }
 
 TEST(ResolveSize, GivenSizeIsKept) {
@@ -54,9 +54,9 @@ TEST(ResolveSize, GivenSizeIsKept) {
 TEST(ResolveSize, ExtremeAspectRatiosStayWithinTheLimits) {
     Camera camera;
     camera.aspect = 1e9f;
-    EXPECT_EQ(resolveSize(sized(0, 512), camera).width, kMaxImageSide);
+    EXPECT_EQ(resolveSize(sized(0, 512), camera).image.width, kMaxImageSide);
     camera.aspect = 1e-9f;
-    EXPECT_EQ(resolveSize(sized(0, 512), camera).width, 1u);
+    EXPECT_EQ(resolveSize(sized(0, 512), camera).image.width, 1u);
 }
 
 TEST(Frame, PerspectiveKeepsTheVerticalFieldOfView) {

@@ -92,7 +92,7 @@ TEST_F(LiveFault, AnyCallOfAMoveMayFail) {
 }
 
 TEST_F(LiveFault, AnyCallOfAChangeOfSizeMayFail) {
-    const LiveRequest shown = smallRequest(Kernels::fused);
+    const LiveRequest shown = smallRequest(Schedule::fused);
     LiveRequest larger = shown;
     larger.settings.image.width += 3;
     larger.settings.image.height += 2;
@@ -103,7 +103,7 @@ TEST_F(LiveFault, AnyCallOfAChangeOfSizeMayFail) {
 class LiveSettingsFault : public LiveFault, public testing::WithParamInterface<long> {};
 
 TEST_P(LiveSettingsFault, AnyCallMayFail) {
-    LiveRequest shown = smallRequest(Kernels::fused);
+    LiveRequest shown = smallRequest(Schedule::fused);
     shown.settings.estimator.nextEventEstimation = false;
     LiveRequest other = shown;
     other.settings.estimator.hemisphere = Hemisphere::uniform;
@@ -120,7 +120,7 @@ TEST_F(LiveFault, AnyCallOfAReloadOfShadersMayFail) {
     ASSERT_NE(accumulate.find(radiance), std::string::npos);
     accumulate.insert(accumulate.find(radiance) + radiance.size(), "0.5 * ");
     std::ofstream(folder / "kernels/accumulate.comp") << accumulate;
-    const LiveRequest shown = smallRequest(Kernels::fused);
+    const LiveRequest shown = smallRequest(Schedule::fused);
     LiveRequest darker = shown;
     darker.shaders = std::make_shared<ShaderOverlay>(folder.path());
     expectEveryCallMayFail(shown, darker);
