@@ -2,7 +2,8 @@
 
 add_library(lavalight_options INTERFACE)
 # No contraction to fused multiply-adds: the same bits on every processor.
-target_compile_options(lavalight_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Werror -ffp-contract=off)
+target_compile_options(lavalight_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow
+    $<$<BOOL:${LAVALIGHT_WERROR}>:-Werror> -ffp-contract=off)
 # g++ 13 and newer report members of an empty std::optional or std::variant as used uninitialised.
 target_compile_options(lavalight_options INTERFACE
     $<$<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_GREATER_EQUAL:$<CXX_COMPILER_VERSION>,13>>:-Wno-maybe-uninitialized>)
