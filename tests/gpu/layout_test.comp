@@ -3,11 +3,11 @@
 #include "lib/math/ray_offset.glsl"
 #include "scene/light.glsl"
 #include "scene/tangent_frame.glsl"
-#include "scene/traverse.glsl"
+#include "scene/intersect.glsl"
 
 layout(local_size_x = 1) in;
 layout(set = 0, binding = 48, std430) writeonly buffer BvhNodeOut { BvhNode bvhNode[]; };
-layout(set = 0, binding = 49, std430) writeonly buffer LeafTriangleOut { LeafTriangle leafTriangle[]; };
+layout(set = 0, binding = 49, std430) writeonly buffer TriangleRecordOut { TriangleRecord triangleRecord[]; };
 layout(set = 0, binding = 51, std430) writeonly buffer MaterialRecordOut { MaterialRecord material[]; };
 layout(set = 0, binding = 52, std430) writeonly buffer LightRecordOut { LightRecord light[]; };
 layout(set = 0, binding = 54, std430) writeonly buffer PunctualRecordOut { PunctualRecord punctual[]; };
@@ -19,7 +19,7 @@ layout(set = 0, binding = 59, std430) writeonly buffer TriangleTangentsOut { Tri
 
 void main() {
     bvhNode[1] = loadNode(1u);
-    leafTriangle[1] = loadLeafTriangle(1u);
+    triangleRecord[1] = loadTriangle(1u);
     material[1] = fetchMaterial(1u);
     light[1] = fetchLight(1u);
     punctual[1] = fetchPunctual(1u);

@@ -11,6 +11,7 @@
 #include "shared/bvh.h"
 #include "shared/scene.h"
 #include "shared/texture.h"
+#include "shared/triangle.h"
 #include "support/test_device.h"
 #include "test_kernels.h"
 
@@ -20,7 +21,7 @@ namespace {
 // The members count upwards in the order of their declaration; what no kernel loads is 0.
 const BvhNode kBvhNode{
     {1, 2, 3}, 4, {5, 6, {7, 8}}, {{9, 10}, {11, 12}, {13, 14}}, {{15, 16}, {17, 18}, {19, 20}}};
-const LeafTriangle kLeafTriangle{{1, 2, 3}, 4, {5, 6, 7}, 8, {9, 10, 11}, 12};
+const TriangleRecord kTriangleRecord{{1, 2, 3}, {4}, {5, 6, 7}, 8, {9, 10, 11}, 12};
 const MaterialRecord kMaterialRecord{
     {1, 2, 3}, 4,  {5, 6, 7},    8,  {9, 10, 11}, 12,           13, 14, 15,           16, 17, 18,
     19,        20, {21, 22, 23}, 24, 25,          26,           27, 28, {29, 30, 31}, 32, 33, 34,
@@ -79,7 +80,7 @@ void expectSecond(const gpu::Buffer& buffer, const T& expected) {
 
 TEST_F(FetchedRecords, ArriveMemberByMember) {
     input("bvhNodes", kBvhNode);
-    input("leafTriangles", kLeafTriangle);
+    input("triangles", kTriangleRecord);
     input("materials", kMaterialRecord);
     input("lights", kLightRecord);
     input("punctuals", kPunctualRecord);
@@ -89,7 +90,7 @@ TEST_F(FetchedRecords, ArriveMemberByMember) {
     input("triangleColors", kTriangleColors);
     input("triangleTangents", kTriangleTangents);
     const gpu::Buffer& node = output<BvhNode>("BvhNodeOut");
-    const gpu::Buffer& triangle = output<LeafTriangle>("LeafTriangleOut");
+    const gpu::Buffer& triangle = output<TriangleRecord>("TriangleRecordOut");
     const gpu::Buffer& material = output<MaterialRecord>("MaterialRecordOut");
     const gpu::Buffer& light = output<LightRecord>("LightRecordOut");
     const gpu::Buffer& punctual = output<PunctualRecord>("PunctualRecordOut");
@@ -100,7 +101,7 @@ TEST_F(FetchedRecords, ArriveMemberByMember) {
     const gpu::Buffer& tangents = output<TriangleTangents>("TriangleTangentsOut");
     runKernel();
     expectSecond(node, kBvhNode);
-    expectSecond(triangle, kLeafTriangle);
+    expectSecond(triangle, kTriangleRecord);
     expectSecond(material, kMaterialRecord);
     expectSecond(light, kLightRecord);
     expectSecond(punctual, kPunctualRecord);
