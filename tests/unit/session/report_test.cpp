@@ -5,7 +5,10 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "film/film_identity.h"
+#include "render/setting_table.h"
 #include "session/report.h"
+#include "support/changed_setting.h"
 
 namespace lavalight {
 namespace {
@@ -87,6 +90,25 @@ RenderReport exampleReport() {
     report.warnings = {"first", "second"};
     report.meanRadiance = {0.1, 0.2, 0.3};
     return report;
+}
+
+// Films of the two settings, by their headers; empty if they may be merged.
+std::string differencesOf(const EstimatorSettings& a, const EstimatorSettings& b) {
+    RenderReport report = exampleReport();
+    report.settings.estimator = a;
+    const Metadata first = exrMetadata(report);
+    report.settings.estimator = b;
+    const Metadata second = exrMetadata(report);
+    return differences({first, "a"}, {second, "b"});
+}
+
+TEST(Report, FilmsThatDifferInASettingThatDecidesBitsAreNotMerged) {
+    EXPECT_EQ(differencesOf({}, {}), "");
+    for (const SettingRow& row : settingRows()) {
+        const std::string difference = differencesOf({}, test::withAnother(row));
+        EXPECT_EQ(difference.starts_with("--" + std::string(row.name) + " ("), row.decidesBits)
+            << row.name << ": " << difference;
+    }
 }
 
 TEST(Report, IsJsonWithWhatTheRenderWasAndCost) {
