@@ -2,7 +2,7 @@
 #include "shared/bindings.h"
 #include "shared/bvh.h"
 
-layout(set = 0, binding = BINDING_LEAF_TRIANGLES) uniform usamplerBuffer leafTriangles; // kLeafTriangleTexels each
+layout(set = 0, binding = BINDING_LEAF_TRIANGLES) uniform utextureBuffer leafTriangles; // kLeafTriangleTexels each
 
 LeafTriangle loadLeafTriangle(uint index) {
     const int texel = int(index * kLeafTriangleTexels);

@@ -14,7 +14,7 @@
 #include "shared/trace.h"
 #include "shared/wavefront.h"
 
-layout(set = 0, binding = BINDING_BVH_NODES) uniform usamplerBuffer bvhNodes; // kNodeTexels a node
+layout(set = 0, binding = BINDING_BVH_NODES) uniform utextureBuffer bvhNodes; // kNodeTexels a node
 
 // What this invocation visited, for kernels that ask.
 layout(constant_id = CONSTANT_COUNT_VISITS) const bool kCountVisits = false;

@@ -29,8 +29,11 @@ using KernelTimes = std::map<std::string, KernelTime, std::less<>>;
 class Commands {
   public:
     explicit Commands(Device& device);
+    ~Commands(); // waits
+    Commands(Commands&&) = default;
+    Commands& operator=(Commands&&) = default;
 
-    // Starts recording anew. Not while a submission runs.
+    // Starts recording anew, once what was submitted before is done.
     void begin();
     // `groups` workgroups along x; push constants must be as long as the kernel declares.
     void dispatch(const BoundKernel& kernel, uint32_t groups, std::span<const std::byte> pushConstants = {});
@@ -40,11 +43,18 @@ class Commands {
     // Sets every 32-bit word of `buffer`.
     void fill(const Buffer& buffer, uint32_t value);
     void copy(const Buffer& from, const Buffer& to, uint64_t bytes);
-    // Ends recording, runs, and returns when all is done. Throws Error where the device fails or is lost.
+    // Ends recording and has it run, behind what was submitted to the device before. Buffers and kernels must
+    // live until wait(). Throws Error where the device fails or is lost.
+    void submit();
+    // Returns when what was submitted is done. Throws Error as above.
     // Where it takes longer than the device's kernelTimeout, the process ends at once with a message and exit
     // code 1: what a device works on cannot be taken back from it, so that there is no way to go on, or to
     // clean up.
-    void submitAndWait();
+    void wait();
+    void submitAndWait() {
+        submit();
+        wait();
+    }
 
     // Sums over all submissions so far; empty on a queue without timestamps.
     [[nodiscard]] const KernelTimes& times() const { return times_; }
@@ -66,6 +76,7 @@ class Commands {
     vk::raii::Fence fence_ = nullptr;
     std::vector<vk::raii::Event> marks_; // set when a kernel of the submission is done, in order
     std::vector<std::string> marked_;    // its name
+    bool isRunning_ = false;
     vk::raii::QueryPool queries_ = nullptr;
     std::vector<std::string> stamps_; // the name whose work ends at timestamp i; empty: not a kernel
     KernelTimes times_;
