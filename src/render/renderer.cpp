@@ -148,6 +148,16 @@ struct Renderer::Setup {
     }
 };
 
+// What takes the place of what is there, built beside it.
+struct Renderer::Fresh {
+    RenderSettings settings;
+    FrameParameters frame;
+    std::optional<EstimatorKernels> kernels{}; // none: those there serve, but for:
+    KernelMap changed{};
+    std::optional<AlbedoTable> albedoTable{}; // none: the one there serves
+    std::optional<Film> film{};               // none: the one there serves, emptied
+};
+
 Renderer::Renderer(gpu::Device& device, const Scene& scene, const Camera& camera,
                    const RenderSettings& wanted, const KernelSource& source)
     : Renderer(
@@ -183,10 +193,7 @@ Renderer::Renderer(gpu::Device& device, const RenderSettings& settings, Setup se
     : device_(&device), settings_(settings), frame_(setup.frame), sceneFeatures_(setup.scene.features),
       kernels_(std::move(setup.kernels)), scene_(device, setup.scene, source),
       film_(device, settings.image.width, settings.image.height, settings.work.bandRows),
-      waves_(
-          makeWaveRenderer(device, settings_.work.schedule,
-                           {scene_, scene_.albedoTable().buffer, film_, frame_,
-                            [&](std::string_view name) -> const gpu::Kernel& { return kernels_[name]; }})) {
+      waves_(makeWaves(Fresh{settings_, frame_})) {
     settings_.estimator.lightSelection = setup.lightSelection;
 }
 
@@ -201,16 +208,6 @@ std::vector<std::string> Renderer::changedKernels(const KernelSource& source) co
         names.emplace_back("albedo");
     return names;
 }
-
-// What takes the place of what is there, built beside it.
-struct Renderer::Fresh {
-    RenderSettings settings;
-    FrameParameters frame;
-    std::optional<EstimatorKernels> kernels{}; // none: those there serve, but for:
-    KernelMap changed{};
-    std::optional<AlbedoTable> albedoTable{}; // none: the one there serves
-    std::optional<Film> film{};               // none: the one there serves, emptied
-};
 
 void Renderer::compileChanged(Fresh& fresh, const KernelSource& source) const {
     if (!fresh.kernels)
@@ -242,17 +239,24 @@ void Renderer::restart(const Scene& scene, const Camera& camera, const RenderSet
     startAnew(std::move(fresh));
 }
 
-// Everything that may fail comes first; what is bound to kernels and film goes before them.
-void Renderer::startAnew(Fresh fresh) {
+// Bound to what is fresh, and to what there is where nothing is.
+std::unique_ptr<WaveRenderer> Renderer::makeWaves(const Fresh& fresh) const {
+    const Schedule schedule = fresh.settings.work.schedule;
+    const std::vector<std::string_view> names = estimatorKernelNames(schedule);
     const auto kernel = [&](std::string_view name) -> const gpu::Kernel& {
         const auto found = fresh.changed.find(name);
         return found != fresh.changed.end() ? found->second
                                             : (fresh.kernels ? *fresh.kernels : kernels_)[name];
     };
-    std::unique_ptr<WaveRenderer> waves =
-        makeWaveRenderer(*device_, fresh.settings.work.schedule,
-                         {scene_, fresh.albedoTable ? fresh.albedoTable->buffer : scene_.albedoTable().buffer,
-                          fresh.film ? *fresh.film : film_, fresh.frame, kernel});
+    const AlbedoTable& albedo = fresh.albedoTable ? *fresh.albedoTable : scene_.albedoTable();
+    return makeWaveRenderer(
+        *device_, schedule,
+        {scene_, albedo.buffer, fresh.film ? *fresh.film : film_, fresh.frame, names, kernel});
+}
+
+// Everything that may fail comes first; what is bound to kernels and film goes before them.
+void Renderer::startAnew(Fresh fresh) {
+    std::unique_ptr<WaveRenderer> waves = makeWaves(fresh);
     if (!fresh.film)
         emptyFilm();
     waves_ = std::move(waves);
@@ -311,6 +315,7 @@ FilmProgress Renderer::progress() const {
 
 void Renderer::continueFrom(const FilmProgress& progress, const RawFilm& film) {
     assert(progress.passSamples <= settings_.work.waveSize);
+    waves_->finish();
     filmIsEmptied_ = false;
     position_ = {};
     film_.restore(film);

@@ -13,7 +13,7 @@
 #include "shared/bindings.h"
 #include "shared/bvh.h"
 
-layout(set = 0, binding = BINDING_BVH_NODES) uniform usamplerBuffer bvhNodes; // kNodeTexels a node
+layout(set = 0, binding = BINDING_BVH_NODES) uniform utextureBuffer bvhNodes; // kNodeTexels a node
 
 BvhNode loadNode(uint index) {
     int texel = int(index * kNodeTexels);
