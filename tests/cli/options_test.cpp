@@ -33,10 +33,11 @@ std::pair<std::string, std::string> cut(const std::string& line) {
     return {line.substr(0, gap), text == std::string::npos ? "" : line.substr(text)};
 }
 
+// "schedule" of "--schedule,--kernels auto|fused", "output" of "-o,--output OUT.exr".
 std::string nameOf(const std::string& entry) {
     const size_t dashes = entry.find("--");
     const size_t begin = dashes == std::string::npos ? 0 : dashes + 2;
-    return entry.substr(begin, entry.find_first_of(" =", begin) - begin);
+    return entry.substr(begin, entry.find_first_of(" =,", begin) - begin);
 }
 
 Help parseHelp(const std::string& text) {
