@@ -12,6 +12,7 @@
 #include "accel/presplit.h"
 #include "base/error.h"
 #include "base/log.h"
+#include "image/pixel_limit.h"
 
 namespace lavalight {
 
@@ -123,12 +124,12 @@ Bvh buildNonEmpty(std::span<const Triangle> triangles, const Bounds& bounds, con
 } // namespace
 
 void requireBvhFits(uint64_t leafTriangles, uint64_t nodes) {
-    if (leafTriangles * kLeafTriangleTexels > kMaxTexels)
+    if (leafTriangles * kLeafTriangleTexels > kMostTexels)
         throw Error(
             fmt::format("cannot build the BVH: {} leaf triangles exceed the {} that fit into a texel buffer: "
                         "simplify the scene",
-                        leafTriangles, kMaxTexels / kLeafTriangleTexels));
-    static_assert(kMaxNodes * kNodeTexels <= kMaxTexels);
+                        leafTriangles, kMostTexels / kLeafTriangleTexels));
+    static_assert(kMaxNodes * kNodeTexels <= kMostTexels);
     if (nodes > kMaxNodes)
         throw Error(fmt::format(
             "cannot build the BVH: {} nodes exceed the {} that traversal can number: simplify the scene",

@@ -12,6 +12,7 @@
 
 #include "base/error.h"
 #include "image/jpeg_check.h"
+#include "image/pixel_limit.h"
 
 namespace lavalight {
 namespace {
@@ -26,9 +27,9 @@ constexpr uint64_t kMostJpegTexelsPerByte = 8 * 64;
 void requireFitting(int64_t width, int64_t height) {
     if (width < 1 || height < 1)
         throw Error("it has no texels");
-    if (static_cast<uint64_t>(width) > kMostPictureTexels / static_cast<uint64_t>(height))
+    if (static_cast<uint64_t>(width) > kMostTexels / static_cast<uint64_t>(height))
         throw Error(fmt::format("it has {} x {} texels, at most {} are supported: scale it down", width,
-                                height, kMostPictureTexels));
+                                height, kMostTexels));
 }
 
 // Small files of a huge picture are damaged, or made to fill the memory. (WebP has no such bound: it may give

@@ -17,9 +17,6 @@ struct Picture {
     std::vector<uint8_t> bytes; // 4 or, in the machine's byte order, 8 a texel
 };
 
-// The most texels of a picture; 512 MiB of them, or twice that with 16 bits a channel.
-constexpr uint64_t kMostPictureTexels = 134'217'728;
-
 struct PictureSize {
     uint32_t width = 0;
     uint32_t height = 0;

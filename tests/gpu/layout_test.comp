@@ -6,6 +6,7 @@
 #include "scene/tangent_frame.glsl"
 #include "scene/traverse.glsl"
 #include "shared/frame.h"
+#include "shared/tone.h"
 #include "shared/trace.h"
 #include "shared/wavefront.h"
 
@@ -30,6 +31,7 @@ layout(set = 0, binding = 57, std430) writeonly buffer TriangleUvsOut { Triangle
 layout(set = 0, binding = 58, std430) writeonly buffer TriangleColorsOut { TriangleColors colors[]; };
 layout(set = 0, binding = 59, std430) writeonly buffer TriangleTangentsOut { TriangleTangents tangents[]; };
 layout(set = 0, binding = 53, std430) writeonly buffer TracedHitOut { TracedHit tracedHit[]; };
+layout(set = 0, binding = 60, std430) writeonly buffer ToneRangeOut { ToneRange toneRange[]; };
 
 void main() {
     ray[1] = Ray(vec3(1, 2, 3), 4u, vec3(5, 6, 7), 8, 9u, SolidsSeen(10u, 11u, 12u));
@@ -42,6 +44,7 @@ void main() {
     frameParameters[1] = FrameParameters(vec3(1, 2, 3), 4u, vec3(5, 6, 7), 8u, vec3(9, 10, 11), 12u,
                                          vec3(13, 14, 15), 16u, vec3(17, 18, 19), 20u, vec3(21, 22, 23), 24, 25u, 26u, 27u,
                                          28, 29, 30u, 31u, 32u, 33u, 34u, 35, 36, 37, 38u, 39u, 40u);
+    toneRange[1] = ToneRange(1u, 2u, 3, 4u, 5u, FilmPlane(6u, 7u, 8u));
     normals[1] = TriangleNormals(1u, 2u, 3u, 4u);
     tracedHit[1] = TracedHit(1, 2u);
     bvhNode[1] = loadNode(1u);

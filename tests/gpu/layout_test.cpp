@@ -12,6 +12,7 @@
 #include "shared/frame.h"
 #include "shared/scene.h"
 #include "shared/texture.h"
+#include "shared/tone.h"
 #include "shared/trace.h"
 #include "shared/wavefront.h"
 #include "support/test_device.h"
@@ -32,6 +33,7 @@ const FrameParameters kFrameParameters{{1, 2, 3},    4,  {5, 6, 7},    8,  {9, 1
                                        {17, 18, 19}, 20, {21, 22, 23}, 24, 25,          26, 27,           28,
                                        29,           30, 31,           32, 33,          34, 35,           36,
                                        37,           38, 39,           40};
+const ToneRange kToneRange{1, 2, 3, 4, 5, {6, 7, 8}};
 const TriangleNormals kTriangleNormals{1, 2, 3, 4};
 const TracedHit kTracedHit{1, 2};
 // Loaded through texel buffers; what no kernel loads is 0.
@@ -113,6 +115,7 @@ TEST_F(LayoutTest, GlslAndCppLayOutEverySharedStructAlike) {
     const gpu::Buffer& dispatchSize = output<DispatchSize>("DispatchSizeOut");
     const gpu::Buffer& waveRange = output<WaveRange>("WaveRangeOut");
     const gpu::Buffer& frame = output<FrameParameters>("FrameParametersOut");
+    const gpu::Buffer& toneRange = output<ToneRange>("ToneRangeOut");
     const gpu::Buffer& normals = output<TriangleNormals>("TriangleNormalsOut");
     const gpu::Buffer& tracedHit = output<TracedHit>("TracedHitOut");
     const gpu::Buffer& node = output<BvhNode>("BvhNodeOut");
@@ -134,6 +137,7 @@ TEST_F(LayoutTest, GlslAndCppLayOutEverySharedStructAlike) {
     expectSecond(dispatchSize, kDispatchSize);
     expectSecond(waveRange, kWaveRange);
     expectSecond(frame, kFrameParameters);
+    expectSecond(toneRange, kToneRange);
     expectSecond(normals, kTriangleNormals);
     expectSecond(tracedHit, kTracedHit);
     expectSecond(node, kBvhNode);

@@ -276,8 +276,8 @@ TEST(Bvh, RefusesCoordinatesThatAreNotFiniteOrTooLarge) {
 }
 
 TEST(Bvh, RefusesWhatDoesNotFit) {
-    EXPECT_NO_THROW(requireBvhFits(kMaxTexels / kLeafTriangleTexels, kMaxNodes));
-    EXPECT_THROW(requireBvhFits(kMaxTexels / kLeafTriangleTexels + 1, 0), Error);
+    EXPECT_NO_THROW(requireBvhFits(kMostTexels / kLeafTriangleTexels, kMaxNodes));
+    EXPECT_THROW(requireBvhFits(kMostTexels / kLeafTriangleTexels + 1, 0), Error);
     EXPECT_THROW(requireBvhFits(0, kMaxNodes + 1), Error);
 }
 
