@@ -28,15 +28,16 @@ constexpr uint32_t kWaveSize = 1u << 18;
 constexpr uint32_t kSamplesTogether = 16;
 
 // Mesa 22.3's lavapipe ends all loops of an invocation without a word after 65,535 turns in sum, and
-// accumulate makes four turns a sample: beyond 16,000 samples it lost some (measured: 1x1 pixel, 65536
-// samples in one wave).
-constexpr uint32_t kMostSamplesTogether = 4096;
+// accumulate makes four turns a sample and plane: beyond 16,000 samples it lost some (measured: 1x1 pixel,
+// 65536 samples in one wave).
+constexpr uint32_t kMostSamplesTogether = 4096; // divided by the film's planes
 
 // Of `remaining` ones: more than kSamplesTogether only where the wave would not be full.
 uint32_t samplesPerWave(uint32_t remaining, uint32_t waveSize, const Film& film) {
     const uint32_t bandPixels =
         film.bands().front().rows * film.width(); // no band has more rows than the first
-    return std::min(remaining, std::clamp(waveSize / bandPixels, kSamplesTogether, kMostSamplesTogether));
+    const auto most = kMostSamplesTogether / static_cast<uint32_t>(film.layout().planes().size());
+    return std::min(remaining, std::clamp(waveSize / bandPixels, kSamplesTogether, most));
 }
 
 // Constant radiance, or what the map's texels are multiplied by.
@@ -235,7 +236,7 @@ void Renderer::restart(const Scene& scene, const Camera& camera, const RenderSet
     compileChanged(fresh, source);
     if (fresh.settings.image.width != film_.width() || fresh.settings.image.height != film_.height())
         fresh.film.emplace(*device_, fresh.settings.image.width, fresh.settings.image.height,
-                           fresh.settings.work.bandRows);
+                           fresh.settings.work.bandRows, film_.layout());
     startAnew(std::move(fresh));
 }
 
@@ -368,12 +369,12 @@ double Renderer::fractionDone() const {
 
 double errorEstimate(const Rendering& rendering) {
     double sum = 0.0;
-    for (size_t i = 0; i < rendering.radiance.pixels.size(); ++i) {
-        const glm::dvec3 mean(rendering.radiance.pixels[i]);
-        const glm::dvec3 relative = glm::dvec3(rendering.variance.pixels[i]) / (mean * mean + 0.01);
+    for (size_t i = 0; i < rendering.radiance().pixels.size(); ++i) {
+        const glm::dvec3 mean(rendering.radiance().pixels[i]);
+        const glm::dvec3 relative = glm::dvec3(rendering.variance().pixels[i]) / (mean * mean + 0.01);
         sum += relative.x + relative.y + relative.z;
     }
-    return sum / (3.0 * static_cast<double>(rendering.radiance.pixels.size()));
+    return sum / (3.0 * static_cast<double>(rendering.radiance().pixels.size()));
 }
 
 } // namespace lavalight

@@ -12,7 +12,7 @@
 #include "film/stop_reason.h"
 #include "gpu/commands.h"
 #include "gpu/device.h"
-#include "image/image.h"
+#include "image/rendering.h"
 #include "render/estimator_kernels.h"
 #include "render/film.h"
 #include "render/settings.h"

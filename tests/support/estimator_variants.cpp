@@ -133,7 +133,7 @@ void expectOneMean(gpu::Device& device, const Scene& scene, const std::vector<Va
         EXPECT_GE(comparison.share, leastShare) << variant.name << ": too noisy to say anything";
         EXPECT_TRUE(comparison.same())
             << variant.name << ": " << comparison.text() << "; difference times 10: "
-            << writeDifference(image.radiance, expected.radiance, 10.0f, "estimator");
+            << writeDifference(image.radiance(), expected.radiance(), 10.0f, "estimator");
     }
 }
 

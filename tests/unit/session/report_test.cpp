@@ -26,13 +26,15 @@ TEST(Ledger, NamesEveryCauseWithItsFigures) {
     scene.ignoredExtensions = {"KHR_a", "EXT_b"};
     scene.meshes.resize(2);
     scene.meshes[1].name = "ice";
-    const FilmTallies tallies{11, 22, 33, 0.25, 44, {2, 65535}};
+    const FilmTallies tallies{11, 22, 33, 0.25, 44, {2, 65535}, 55, 66};
     const auto ledger = makeLedger(scene, RenderSettings(), tallies, StopReason::samples);
-    ASSERT_EQ(ledger.size(), 5u);
+    ASSERT_EQ(ledger.size(), 7u);
     const std::map<std::string, std::string> figures{{"dropped-samples", "11"},
                                                      {"saturated-sums", "22"},
                                                      {"cut-paths", "33"},
                                                      {"overlapping-solids", "44 paths"},
+                                                     {"negative-samples", "55 samples were negative"},
+                                                     {"limited-values", "66 values"},
                                                      {"ignored-extensions", "KHR_a, EXT_b"}};
     for (const LedgerEntry& entry : ledger)
         EXPECT_NE(entry.detail.find(figures.at(entry.cause)), std::string::npos)
