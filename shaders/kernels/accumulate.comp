@@ -24,7 +24,8 @@ uint wordAt(uint channel, uint word, uint pixel) {
 }
 
 ChannelSums loadSums(uint channel, uint pixel) {
-    return ChannelSums(uvec3(film[wordAt(channel, 0u, pixel)], film[wordAt(channel, 1u, pixel)], film[wordAt(channel, 2u, pixel)]),
+    return ChannelSums(uvec3(film[wordAt(channel, 0u, pixel)], film[wordAt(channel, 1u, pixel)],
+                             film[wordAt(channel, 2u, pixel)]),
                        uvec4(film[wordAt(channel, 3u, pixel)], film[wordAt(channel, 4u, pixel)], film[wordAt(channel, 5u, pixel)],
                              film[wordAt(channel, 6u, pixel)]));
 }

@@ -86,9 +86,9 @@ std::vector<SurfacePoint> hitPoints(std::span<const Ray> rays, std::span<const T
     assert(rays.size() == hits.size());
     std::vector<SurfacePoint> points;
     for (size_t i = 0; i < rays.size(); ++i) {
-        if (hits[i].triangle == kNoTriangle)
+        if (!isSurface(hits[i].surface))
             continue;
-        const Triangle& triangle = triangles[hits[i].triangle];
+        const Triangle& triangle = triangles[hits[i].surface.primitive];
         const glm::vec3 normal = glm::cross(triangle.v1 - triangle.v0, triangle.v2 - triangle.v0);
         const float length = glm::length(normal);
         if (!(length > 0.0f))
@@ -124,7 +124,7 @@ std::vector<ShadowRay> makeShadowRays(std::span<const SurfacePoint> points, cons
             table.empty()
                 ? 2.0f * scene.bounds.radius() * cosineDirection(point.ng, random)
                 : pointOn(triangles[emitters.list[pickFrom(table, random)].triangle], random) - point.p;
-        rays.push_back({point.p, kNoTriangle, kShare * way, kNoTriangle, glm::vec3(0.0f), 0.0f});
+        rays.push_back({point.p, kNoSurface, kShare * way, kNoSurface, glm::vec3(0.0f), 0.0f});
     }
     return rays;
 }

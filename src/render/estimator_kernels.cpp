@@ -3,14 +3,16 @@
 #include <cassert>
 #include <chrono>
 
+#include "device_scene/scene_features.h"
 #include "gpu/warm_up.h"
 #include "render/setting_table.h"
 
 namespace lavalight {
 
 std::vector<gpu::SpecialisationConstant> estimatorConstants(const EstimatorSettings& settings,
-                                                            uint32_t features) {
-    std::vector<gpu::SpecialisationConstant> constants{{CONSTANT_FEATURES, features}};
+                                                            SceneFeatures features) {
+    const auto [first, second] = featureConstants(features);
+    std::vector<gpu::SpecialisationConstant> constants{first, second};
     for (const SettingRow& row : settingRows())
         if (const auto* values = std::get_if<NamedValues>(&row.values); values && values->constant)
             constants.push_back({*values->constant, values->get(settings)});
@@ -25,7 +27,7 @@ std::vector<std::string_view> estimatorKernelNames(Schedule schedule) {
 }
 
 EstimatorKernels::EstimatorKernels(gpu::Device& device, Schedule schedule, const EstimatorSettings& settings,
-                                   uint32_t features, const KernelSource& source)
+                                   SceneFeatures features, const KernelSource& source)
     : schedule_(schedule), constants_(estimatorConstants(settings, features)) {
     const auto start = std::chrono::steady_clock::now();
     std::vector<const gpu::Kernel*> made;
@@ -44,17 +46,23 @@ std::vector<std::string> EstimatorKernels::changed(const KernelSource& source) c
     return names;
 }
 
-void EstimatorKernels::reload(gpu::Device& device, const KernelSource& source) {
-    std::map<std::string, gpu::Kernel, std::less<>> fresh;
+KernelMap EstimatorKernels::compileChanged(gpu::Device& device, const KernelSource& source) const {
+    KernelMap fresh;
     std::vector<const gpu::Kernel*> made;
     for (const std::string& name : changed(source))
         made.push_back(&fresh.try_emplace(name, device, source(name), constants_).first->second);
-    gpu::warmUp(device, made);
-    for (auto& [name, kernel] : fresh)
-        kernels_.insert_or_assign(name, std::move(kernel));
+    if (!made.empty())
+        gpu::warmUp(device, made);
+    return fresh;
 }
 
-bool EstimatorKernels::serve(Schedule schedule, const EstimatorSettings& settings, uint32_t features) const {
+void EstimatorKernels::replace(KernelMap compiled) noexcept {
+    for (const auto& [name, kernel] : compiled)
+        kernels_.erase(name);
+    kernels_.merge(compiled); // kernels stay at their addresses, which bound ones know
+}
+
+bool EstimatorKernels::serve(Schedule schedule, const EstimatorSettings& settings, SceneFeatures features) const {
     return schedule == schedule_ && estimatorConstants(settings, features) == constants_;
 }
 

@@ -18,7 +18,7 @@ struct Preset {
 
 [[nodiscard]] std::span<const Preset> presets();
 
-// Throws UsageError naming the presets there are.
+// Finds a preset by name. Throws UsageError naming the presets there are.
 [[nodiscard]] const Preset& findPreset(std::string_view name);
 
 // What it sets, as options: "as nee, with --mis power".

@@ -132,7 +132,7 @@ struct Renderer::Setup {
     SceneData scene;
     LightSelection lightSelection;
 
-    using MakeKernels = std::function<EstimatorKernels(uint32_t features)>;
+    using MakeKernels = std::function<EstimatorKernels(SceneFeatures features)>;
 
     static Setup make(const Scene& scene, const Camera& camera, const RenderSettings& settings,
                       const MakeKernels& makeKernels) {
@@ -153,7 +153,7 @@ Renderer::Renderer(gpu::Device& device, const Scene& scene, const Camera& camera
     : Renderer(
           device, resolveSchedule(wanted, device.description().isCpu),
           [&](const RenderSettings& settings) {
-              return Setup::make(scene, camera, settings, [&](uint32_t features) {
+              return Setup::make(scene, camera, settings, [&](SceneFeatures features) {
                   return EstimatorKernels(device, settings.work.schedule, settings.estimator, features,
                                           source);
               });
@@ -165,7 +165,7 @@ Renderer::Renderer(gpu::Device& device, const Scene& scene, const Camera& camera
     : Renderer(
           device, resolveSchedule(wanted, device.description().isCpu),
           [&](const RenderSettings& settings) {
-              return Setup::make(scene, camera, settings, [&](uint32_t features) {
+              return Setup::make(scene, camera, settings, [&](SceneFeatures features) {
                   if (earlier.serve(settings.work.schedule, settings.estimator, features))
                       return std::move(earlier);
                   return EstimatorKernels(device, settings.work.schedule, settings.estimator, features,
@@ -183,52 +183,98 @@ Renderer::Renderer(gpu::Device& device, const RenderSettings& settings, Setup se
     : device_(&device), settings_(settings), frame_(setup.frame), sceneFeatures_(setup.scene.features),
       kernels_(std::move(setup.kernels)), scene_(device, setup.scene, source),
       film_(device, settings.image.width, settings.image.height, settings.work.bandRows),
-      waves_(makeWaveRenderer(device, settings_.work.schedule, {scene_, film_, frame_, kernels_})) {
+      waves_(
+          makeWaveRenderer(device, settings_.work.schedule,
+                           {scene_, scene_.albedoTable().buffer, film_, frame_,
+                            [&](std::string_view name) -> const gpu::Kernel& { return kernels_[name]; }})) {
     settings_.estimator.lightSelection = setup.lightSelection;
+}
+
+bool Renderer::wantsAlbedoTable(const KernelSource& source) const {
+    const std::string& content = scene_.albedoTable().kernelContent;
+    return !content.empty() && source("albedo").content != content;
 }
 
 std::vector<std::string> Renderer::changedKernels(const KernelSource& source) const {
     std::vector<std::string> names = kernels_.changed(source);
-    const std::string& albedo = scene_.albedoTable().kernelContent;
-    if (!albedo.empty() && source("albedo").content != albedo)
+    if (wantsAlbedoTable(source))
         names.emplace_back("albedo");
     return names;
 }
 
+// What takes the place of what is there, built beside it.
+struct Renderer::Fresh {
+    RenderSettings settings;
+    FrameParameters frame;
+    std::optional<EstimatorKernels> kernels{}; // none: those there serve, but for:
+    KernelMap changed{};
+    std::optional<AlbedoTable> albedoTable{}; // none: the one there serves
+    std::optional<Film> film{};               // none: the one there serves, emptied
+};
+
+void Renderer::compileChanged(Fresh& fresh, const KernelSource& source) const {
+    if (!fresh.kernels)
+        fresh.changed = kernels_.compileChanged(*device_, source);
+    if (wantsAlbedoTable(source))
+        fresh.albedoTable = makeAlbedoTable(*device_, source("albedo"));
+}
+
 void Renderer::reloadKernels(const KernelSource& source) {
-    const std::vector<std::string> names = changedKernels(source);
-    std::optional<AlbedoTable> table;
-    if (std::find(names.begin(), names.end(), "albedo") != names.end())
-        table = makeAlbedoTable(*device_, source("albedo"));
-    kernels_.reload(*device_, source);
-    if (table)
-        scene_.setAlbedoTable(std::move(*table));
-    startAnew();
+    Fresh fresh{settings_, frame_};
+    compileChanged(fresh, source);
+    startAnew(std::move(fresh));
 }
 
 void Renderer::restart(const Scene& scene, const Camera& camera, const RenderSettings& wanted,
                        const KernelSource& source) {
-    RenderSettings settings = resolveSchedule(wanted, device_->description().isCpu);
-    settings.estimator.lightSelection = settings_.estimator.lightSelection;
-    FrameParameters frame = makeFrame(scene, camera, settings);
-    copyLights(frame_, frame);
-    const uint32_t features = sceneFeatures_ | cameraFeatures(camera);
-    if (!kernels_.serve(settings.work.schedule, settings.estimator, features)) {
-        EstimatorKernels fresh(*device_, settings.work.schedule, settings.estimator, features, source);
-        kernels_ = std::move(fresh);
-    }
-    if (settings.image.width != film_.width() || settings.image.height != film_.height())
-        film_ = Film(*device_, settings.image.width, settings.image.height, settings.work.bandRows);
-    settings_ = settings;
-    frame_ = frame;
-    startAnew();
+    Fresh fresh{resolveSchedule(wanted, device_->description().isCpu), {}};
+    fresh.settings.estimator.lightSelection = settings_.estimator.lightSelection;
+    fresh.frame = makeFrame(scene, camera, fresh.settings);
+    copyLights(frame_, fresh.frame);
+    const SceneFeatures features = sceneFeatures_ | cameraFeatures(camera);
+    const EstimatorSettings& estimator = fresh.settings.estimator;
+    if (!kernels_.serve(fresh.settings.work.schedule, estimator, features))
+        fresh.kernels.emplace(*device_, fresh.settings.work.schedule, estimator, features, source);
+    compileChanged(fresh, source);
+    if (fresh.settings.image.width != film_.width() || fresh.settings.image.height != film_.height())
+        fresh.film.emplace(*device_, fresh.settings.image.width, fresh.settings.image.height,
+                           fresh.settings.work.bandRows);
+    startAnew(std::move(fresh));
 }
 
-void Renderer::startAnew() {
-    film_.clear();
+// Everything that may fail comes first; what is bound to kernels and film goes before them.
+void Renderer::startAnew(Fresh fresh) {
+    const auto kernel = [&](std::string_view name) -> const gpu::Kernel& {
+        const auto found = fresh.changed.find(name);
+        return found != fresh.changed.end() ? found->second
+                                            : (fresh.kernels ? *fresh.kernels : kernels_)[name];
+    };
+    std::unique_ptr<WaveRenderer> waves =
+        makeWaveRenderer(*device_, fresh.settings.work.schedule,
+                         {scene_, fresh.albedoTable ? fresh.albedoTable->buffer : scene_.albedoTable().buffer,
+                          fresh.film ? *fresh.film : film_, fresh.frame, kernel});
+    if (!fresh.film)
+        emptyFilm();
+    waves_ = std::move(waves);
+    if (fresh.kernels)
+        kernels_ = std::move(*fresh.kernels);
+    kernels_.replace(std::move(fresh.changed));
+    if (fresh.albedoTable)
+        scene_.setAlbedoTable(std::move(*fresh.albedoTable));
+    if (fresh.film)
+        film_ = std::move(*fresh.film);
+    filmIsEmptied_ = true;
+    settings_ = fresh.settings;
+    frame_ = fresh.frame;
     position_ = {};
-    waves_.reset(); // gives its memory back first
-    waves_ = makeWaveRenderer(*device_, settings_.work.schedule, {scene_, film_, frame_, kernels_});
+}
+
+// What fails here may have emptied it, or not.
+void Renderer::emptyFilm() {
+    filmIsEmptied_ = false;
+    position_ = {};
+    film_.clear();
+    filmIsEmptied_ = true;
 }
 
 StopReason Renderer::render(const KeepGoing& keepGoing) {
@@ -265,7 +311,10 @@ FilmProgress Renderer::progress() const {
 
 void Renderer::continueFrom(const FilmProgress& progress, const RawFilm& film) {
     assert(progress.passSamples <= settings_.work.waveSize);
+    filmIsEmptied_ = false;
+    position_ = {};
     film_.restore(film);
+    filmIsEmptied_ = true;
     const uint32_t bandPixels = film_.bands().front().rows * film_.width(); // of all bands but the last
     position_ = {progress.samples, progress.passSamples, progress.passPixels / bandPixels,
                  progress.passPixels % bandPixels};
@@ -273,6 +322,8 @@ void Renderer::continueFrom(const FilmProgress& progress, const RawFilm& film) {
 
 void Renderer::step(uint32_t mostSlots) {
     assert(!isDone());
+    if (!filmIsEmptied_)
+        emptyFilm();
     RenderPosition& at = position_;
     if (at.passSamples == 0)
         at.passSamples = nextPass();

@@ -30,6 +30,7 @@ BandResources::BandResources(gpu::Device& device, const WaveInputs& inputs, cons
                              gpu::ResourceTable state)
     : frame(uploadFrame(device, inputs.frame, band)), table(std::move(state)) {
     inputs.scene.addTo(table);
+    table.set("albedoTable", inputs.albedoTable);
     table.set("Tallies", inputs.film.tallies());
     table.set("Frame", frame);
     table.set("Film", band.sums);

@@ -44,8 +44,7 @@ RenderSettings LiveSide::filmSettings(const LiveRequest& request) const {
 }
 
 void LiveSide::show(const LiveRequest& request) {
-    if (request_ && request_->shaders != request.shaders)
-        tracer_.reset();
+    const bool hasOtherShaders = request_ && request_->shaders != request.shaders;
     const Restart restart = renderer_ ? restartsImage(*request_, request) : Restart::scene;
     if (restart == Restart::image) {
         restartImage(request);
@@ -60,14 +59,19 @@ void LiveSide::show(const LiveRequest& request) {
             throw;
         }
     }
+    if (hasOtherShaders)
+        tracer_.reset();
     request_ = request;
 }
 
+void LiveSide::giveUp() {
+    tracer_.reset();
+    renderer_.reset();
+    startCounting();
+}
+
 void LiveSide::restartImage(const LiveRequest& request) {
-    const KernelSource source = sourceOf(request.shaders);
-    if (request_->shaders != request.shaders)
-        renderer_->reloadKernels(source);
-    renderer_->restart(*request.scene, request.camera, filmSettings(request), source);
+    renderer_->restart(*request.scene, request.camera, filmSettings(request), sourceOf(request.shaders));
     startCounting();
 }
 

@@ -11,6 +11,7 @@
 
 #include "base/log.h"
 #include "render/renderer.h"
+#include "session/lit_scene.h"
 #include "view/controls.h"
 #include "view/inspector_panel.h"
 #include "view/panel.h"
@@ -42,6 +43,10 @@ std::string freeName(const std::string& source) {
     }
 }
 
+Scene loadOrder(const SceneOrder& order) {
+    return loadLitScene(order.source, order.import, order.lighting);
+}
+
 bool isEnvironment(const std::string& path) {
     const std::string extension = std::filesystem::path(path).extension().string();
     return extension == ".hdr" || extension == ".exr" || extension == ".pic";
@@ -51,7 +56,7 @@ bool isEnvironment(const std::string& path) {
 
 Viewer::Viewer(ViewerConfig config)
     : view_(std::move(config.view)), window_(makeWindow(view_)), presenter_(window_, config.device.validate),
-      render_(config.device, &Window::wake), loader_(std::move(config.load), &Window::wake),
+      render_(config.device, &Window::wake), loader_(loadOrder, &Window::wake),
       shaders_(std::move(config.shaders)) {
     view_.settings = resolveSchedule(view_.settings, render_.device().isCpu);
     if (!config.watched.empty())
@@ -158,7 +163,7 @@ void Viewer::takeInspection(const PixelInspection& inspection) {
     if (inspection.scene != view_.scene)
         return; // another one came in between
     const bool isHit =
-        !inspection.path.vertices.empty() && (inspection.path.vertices.front().triangle != kNoTriangle);
+        !inspection.path.vertices.empty() && isSurface(inspection.path.vertices.front().surface);
     if (purpose_ == Purpose::look)
         inspection_ = inspection;
     else if (isHit && purpose_ == Purpose::centre)

@@ -147,8 +147,8 @@ TEST_F(Render, HeaderNamesTheDeviceThatDevicesLists) {
     const json device = *std::find_if(devices.begin(), devices.end(),
                                       [](const json& candidate) { return candidate.at("refusals").empty(); });
     expectSuccess({"-o", "a.exr", "--device", device.at("index").dump()});
-    EXPECT_EQ(header("a.exr").at("device"), device.at("name"));
-    EXPECT_EQ(header("a.exr").at("driver"), device.at("driver"));
+    EXPECT_EQ(header("a.exr").at("device"), device.at("name").get<std::string>());
+    EXPECT_EQ(header("a.exr").at("driver"), device.at("driver").get<std::string>());
 }
 
 TEST_F(Render, ReportIsJsonThatAgreesWithTheImage) {

@@ -10,8 +10,6 @@
 
 #include "base/error.h"
 #include "cli/options/option_values.h"
-#include "image/environment_file.h"
-#include "session/builtin.h"
 
 namespace lavalight {
 namespace {
@@ -21,16 +19,6 @@ bool isMapName(const std::string& text) {
     constexpr std::array<const char*, 3> kExtensions{".hdr", ".exr", ".pic"};
     return std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end() ||
            std::filesystem::exists(text);
-}
-
-void readEnvironmentMap(const std::string& path, Scene& scene) {
-    EnvironmentFile file = readEnvironmentFile(path);
-    if (file.badTexels > 0)
-        scene.warnings.push_back(
-            fmt::format("{}: {} of {} pixels had negative, infinite or undefined values, "
-                        "which were set to 0",
-                        path, file.badTexels, file.image.pixels.size()));
-    scene.environmentMap = {path, std::move(file.image), file.badTexels};
 }
 
 } // namespace
@@ -69,14 +57,6 @@ LightingSettings EnvironmentOptions::lighting() const {
     if (parser_->count("--env-rotation") > 0 && lighting.mapFile.empty())
         throw UsageError("--env-rotation: there is no map to turn; give one with --env FILE");
     return lighting;
-}
-
-Scene loadLit(const std::string& nameOrPath, ImportOptions options, const LightingSettings& lighting) {
-    options.bringsLight = lighting.constant.has_value() || !lighting.mapFile.empty();
-    Scene scene = loadScene(nameOrPath, options);
-    if (!lighting.mapFile.empty())
-        readEnvironmentMap(lighting.mapFile, scene);
-    return scene;
 }
 
 } // namespace lavalight

@@ -5,9 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "gltf/import_options.h"
 #include "render/settings.h"
-#include "scene/scene.h"
 
 namespace lavalight {
 
@@ -28,11 +26,5 @@ class EnvironmentOptions {
     float rotation_ = 0.0f;
     float intensity_ = 1.0f;
 };
-
-// The scene, built in or a file, with the environment map that the lighting names, if it names one. What had
-// to be changed in the map becomes a warning of the scene. Throws Error for a file that is no scene, or no
-// map.
-[[nodiscard]] Scene loadLit(const std::string& nameOrPath, ImportOptions options,
-                            const LightingSettings& lighting);
 
 } // namespace lavalight

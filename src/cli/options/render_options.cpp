@@ -77,8 +77,11 @@ void RenderOptions::declareEstimator(CLI::App& parser) {
 
 void RenderOptions::declareDevice(CLI::App& parser) {
     device_.emplace(parser);
-    addNamed(parser, "--schedule,--kernels", settings_.work.schedule,
+    addNamed(parser, "--schedule", settings_.work.schedule,
              "One kernel for whole paths, or one for each step; auto: by device");
+    // The name that it had before, left out of the help.
+    addNamed(parser, "--kernels", settings_.work.schedule, "");
+    parser.get_option("--kernels")->group("")->excludes(parser.get_option("--schedule"));
     parser
         .add_option("--wave-size", settings_.work.waveSize,
                     "Paths in flight; 0: by the kernels; changes no bit of the image")
@@ -104,7 +107,7 @@ RenderSettings RenderOptions::settings() const {
     if (!size_.empty())
         parseSize(size_, settings);
     settings.lighting = environment_.lighting();
-    settings.provenance.cameraOptions = camera_.given();
+    settings.provenance.cameraOptions = describe(camera_.choice());
     return settings;
 }
 
@@ -120,6 +123,10 @@ void RenderOptions::takeRange(RenderSettings& settings) const {
                             option));
     settings.image.firstSample = ranges->front().first;
     settings.stop.samples = countOf(*ranges);
+}
+
+RenderPlan RenderOptions::plan(const std::string& scene) const {
+    return {scene, settings(), camera_.choice(), device(), {}};
 }
 
 gpu::DeviceConfig RenderOptions::device() const {
