@@ -62,7 +62,8 @@ void EstimatorKernels::replace(KernelMap compiled) noexcept {
     kernels_.merge(compiled); // kernels stay at their addresses, which bound ones know
 }
 
-bool EstimatorKernels::serve(Schedule schedule, const EstimatorSettings& settings, SceneFeatures features) const {
+bool EstimatorKernels::serve(Schedule schedule, const EstimatorSettings& settings,
+                             SceneFeatures features) const {
     return schedule == schedule_ && estimatorConstants(settings, features) == constants_;
 }
 
