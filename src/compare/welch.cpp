@@ -6,8 +6,9 @@
 #include <limits>
 #include <numbers>
 
+#include <boost/math/distributions/students_t.hpp>
+
 #include "base/error.h"
-#include "compare/student_t.h"
 
 namespace lavalight {
 namespace {
@@ -93,6 +94,16 @@ double absoluteZ(const Sums& sums, int c) {
         return 0.0;
     const double z = std::abs(sums.difference[c]) / std::sqrt(sums.uncertainty.variance[c]);
     return std::isnan(z) ? std::numeric_limits<double>::infinity() : z;
+}
+
+// The probability of a value beyond -t or t; degrees of freedom may be infinite.
+double studentTwoSidedTail(double t, double degreesOfFreedom) {
+    using namespace boost::math::policies;
+    // Figures without an answer give NaN, which is below no limit.
+    using Policy = policy<promote_double<false>, domain_error<ignore_error>, overflow_error<ignore_error>,
+                          evaluation_error<ignore_error>>;
+    const boost::math::students_t_distribution<double, Policy> distribution(degreesOfFreedom);
+    return 2.0 * cdf(complement(distribution, t));
 }
 
 // The p-value of a test; any above `atLeast` may come out as `atLeast`. Student's tails are no lighter than

@@ -3,16 +3,14 @@
 #include <array>
 #include <cmath>
 #include <fstream>
-#include <utility>
 
 #include "base/file.h"
 #include "image/exr.h"
 #include "image/hdr.h"
+#include "image/pixel_limit.h"
 
 namespace lavalight {
 namespace {
-
-constexpr uint64_t kMostTexels = 1u << 27; // elements of a texel buffer on the devices we know
 
 bool isExr(const std::filesystem::path& path) {
     requireRegularFile(path);
@@ -29,7 +27,7 @@ bool isGood(float value) {
 
 EnvironmentFile readEnvironmentFile(const std::filesystem::path& path) {
     EnvironmentFile file;
-    file.image = isExr(path) ? std::move(readExr(path, kMostTexels).radiance) : readHdr(path, kMostTexels);
+    file.image = isExr(path) ? readExrRadiance(path, kMostTexels) : readHdr(path, kMostTexels);
     for (glm::vec3& pixel : file.image.pixels) {
         const glm::bvec3 good(isGood(pixel.x), isGood(pixel.y), isGood(pixel.z));
         file.badTexels += glm::all(good) ? 0u : 1u;

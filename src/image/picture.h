@@ -18,9 +18,6 @@ struct Picture {
     std::string damage{};       // what the decoder passed over; empty: nothing
 };
 
-// The most texels of a picture; 512 MiB of them, or twice that with 16 bits a channel.
-constexpr uint64_t kMostPictureTexels = 134'217'728;
-
 struct PictureSize {
     uint32_t width = 0;
     uint32_t height = 0;

@@ -105,7 +105,7 @@ std::vector<Image> snapshots(const RenderBench& bench, const EstimatorSettings& 
     uint32_t next = kImageStep;
     renderer.render([&](double fraction) {
         if (std::lround(fraction * kImageSamples) >= next) {
-            images.push_back(renderer.rendering().radiance);
+            images.push_back(renderer.rendering().radiance());
             next *= 4;
         }
         return true;
