@@ -2,7 +2,11 @@
 
 add_library(lavalight_options INTERFACE)
 # No contraction to fused multiply-adds: the same bits on every processor.
-target_compile_options(lavalight_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Werror -ffp-contract=off)
+target_compile_options(lavalight_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow
+    $<$<BOOL:${LAVALIGHT_WERROR}>:-Werror> -ffp-contract=off)
+# g++ 13 and newer report members of an empty std::optional or std::variant as used uninitialised.
+target_compile_options(lavalight_options INTERFACE
+    $<$<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_GREATER_EQUAL:$<CXX_COMPILER_VERSION>,13>>:-Wno-maybe-uninitialized>)
 target_include_directories(lavalight_options INTERFACE ${CMAKE_SOURCE_DIR}/src ${CMAKE_SOURCE_DIR}/shaders)
 
 # lavalight_library(NAME DEPS ... [PRIVATE_DEPS ...] [EXCLUDE file...]): all of src/NAME and below as lavalight_NAME.

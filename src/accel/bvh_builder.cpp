@@ -13,6 +13,7 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "image/pixel_limit.h"
+#include "shared/triangle.h"
 
 namespace lavalight {
 
@@ -124,11 +125,11 @@ Bvh buildNonEmpty(std::span<const Triangle> triangles, const Bounds& bounds, con
 } // namespace
 
 void requireBvhFits(uint64_t leafTriangles, uint64_t nodes) {
-    if (leafTriangles * kLeafTriangleTexels > kMostTexels)
+    if (leafTriangles * kTriangleTexels > kMostTexels)
         throw Error(
             fmt::format("cannot build the BVH: {} leaf triangles exceed the {} that fit into a texel buffer: "
                         "simplify the scene",
-                        leafTriangles, kMostTexels / kLeafTriangleTexels));
+                        leafTriangles, kMostTexels / kTriangleTexels));
     static_assert(kMaxNodes * kNodeTexels <= kMostTexels);
     if (nodes > kMaxNodes)
         throw Error(fmt::format(

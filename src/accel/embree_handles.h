@@ -3,7 +3,11 @@
 
 #include <memory>
 
+#if __has_include(<embree4/rtcore.h>)
+#include <embree4/rtcore.h>
+#else
 #include <embree3/rtcore.h>
+#endif
 
 namespace lavalight {
 

@@ -6,14 +6,15 @@
 #include <limits>
 #include <numbers>
 
+#include <boost/math/distributions/students_t.hpp>
+
 #include "base/error.h"
-#include "compare/student_t.h"
 
 namespace lavalight {
 namespace {
 
-// Of the reference's value: what the functions of another driver, exact to 2^-11 at worst (Vulkan's sine),
-// may change in the mean of many paths.
+// Share of the reference's value by which the functions of another driver, exact to 2^-11 at worst (Vulkan's
+// sine), may change the mean of many paths.
 constexpr double kRounding = 1e-4;
 
 void requireSameSize(const Image& a, const Image* b) {
@@ -61,7 +62,7 @@ Uncertainty uncertaintyOf(const Estimate& image, const Estimate& reference, size
     return u;
 }
 
-// What is summed over the pixels of a tile.
+// Sums over the pixels of a tile.
 struct Sums {
     glm::dvec3 difference{0.0};
     glm::dvec3 reference{0.0};
@@ -95,8 +96,18 @@ double absoluteZ(const Sums& sums, int c) {
     return std::isnan(z) ? std::numeric_limits<double>::infinity() : z;
 }
 
-// Any p above `atLeast` may come out as `atLeast`. Student's tails are no lighter than the normal
-// distribution's, which takes a tenth of their time and settles nearly all tests.
+// The probability of a value beyond -t or t; degrees of freedom may be infinite.
+double studentTwoSidedTail(double t, double degreesOfFreedom) {
+    using namespace boost::math::policies;
+    // Figures without an answer give NaN, which is below no limit.
+    using Policy = policy<promote_double<false>, domain_error<ignore_error>, overflow_error<ignore_error>,
+                          evaluation_error<ignore_error>>;
+    const boost::math::students_t_distribution<double, Policy> distribution(degreesOfFreedom);
+    return 2.0 * cdf(complement(distribution, t));
+}
+
+// The p-value of a test; any above `atLeast` may come out as `atLeast`. Student's tails are no lighter than
+// the normal distribution's, which takes a tenth of their time and settles nearly all tests.
 double pValue(const Sums& sums, int c, double z, double atLeast) {
     if (std::abs(sums.difference[c]) <= kRounding * std::abs(sums.reference[c]))
         return 1.0;

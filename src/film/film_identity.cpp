@@ -20,9 +20,9 @@ constexpr std::string_view kNoValue = "none";
 constexpr std::array<std::string_view, 5> kFreeOptions{"spp", "first-sample", "time", "target-error",
                                                        "wave-size"};
 // Those that say where something comes from: its content is what counts.
-constexpr std::array<std::string_view, 11> kSources{"env",     "look-from", "look-at",  "up",
-                                                    "fov",     "aperture",  "focus",    "panorama",
-                                                    "shaders", "at",        "animation"};
+constexpr std::array<std::string_view, 12> kSources{"env",     "look-from", "look-at",   "up",
+                                                    "fov",     "aperture",  "focus",     "panorama",
+                                                    "shaders", "at",        "animation", "variant"};
 
 template <size_t N>
 bool isOneOf(const std::array<std::string_view, N>& names, std::string_view name) {
@@ -52,11 +52,12 @@ std::string labelOf(std::string_view key) {
     return std::string(key.starts_with(kContent) ? key.substr(kContent.size()) : key);
 }
 
-// Hashes are told apart by their first digits.
+// Hashes are told apart by their first digits; the accelerator's is a name.
 std::string shown(std::string_view key, const std::string& value) {
     if (value.empty())
         return std::string(kNoValue);
-    return key.starts_with(kContent) ? fmt::format("content {}", value.substr(0, 8)) : value;
+    const bool isHash = key.starts_with(kContent) && labelOf(key) != "accelerator";
+    return isHash ? fmt::format("content {}", value.substr(0, 8)) : value;
 }
 
 } // namespace

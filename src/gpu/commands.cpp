@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cstdlib>
 
-#include <spdlog/spdlog.h>
+#include <fmt/format.h>
 
 namespace lavalight::gpu {
 namespace {
@@ -37,6 +36,8 @@ void Commands::begin() {
     checked("begin", "a command buffer", [&] {
         for (size_t i = 0; i < marked_.size(); ++i)
             marks_[i].reset();
+        device_->handle().resetFences(*fence_);
+        buffers_.front().reset(); // a failure may have left it half recorded
         buffers_.front().begin(vk::CommandBufferBeginInfo(vk::CommandBufferUsageFlagBits::eOneTimeSubmit));
     });
     stamps_.clear();
@@ -121,9 +122,8 @@ void Commands::submitAndWait() {
         const vk::CommandBuffer commands = recorded(buffers_);
         const vk::SubmitInfo submit({}, {}, commands);
         device_->queue().submit(submit, *fence_);
-        if (!waitForFence())
-            endProcess();
-        device_->handle().resetFences(*fence_);
+        while (!waitForFence())
+            reportTimeout();
     });
     collectTimes();
 }
@@ -149,11 +149,9 @@ bool Commands::waitForFence() const {
     }
 }
 
-void Commands::endProcess() const {
-    spdlog::error("kernel {} has not come back within {} s (--kernel-timeout)", unfinishedKernel(),
-                  device_->kernelTimeout());
-    spdlog::default_logger()->flush();
-    std::_Exit(1);
+void Commands::reportTimeout() const {
+    device_->reportKernelTimeout(fmt::format("kernel {} has not come back within {} s (--kernel-timeout)",
+                                             unfinishedKernel(), device_->kernelTimeout()));
 }
 
 std::string Commands::unfinishedKernel() const {

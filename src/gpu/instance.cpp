@@ -78,14 +78,17 @@ Instance::Instance(bool validate, std::span<const char* const> extensions)
       instance_(makeInstance(context_, validate, extensions)) {
     if (!validate)
         return;
-    using Severity = vk::DebugUtilsMessageSeverityFlagBitsEXT;
-    using Type = vk::DebugUtilsMessageTypeFlagBitsEXT;
-    messenger_ =
-        vk::raii::DebugUtilsMessengerEXT(instance_, {{},
-                                                     Severity::eError | Severity::eWarning,
-                                                     Type::eGeneral | Type::eValidation | Type::ePerformance,
-                                                     &MessageLog::append,
-                                                     messages_.get()});
+    // The C structure: Vulkan-Hpp 1.4 (Debian 13) declares the callback with other types than 1.3.
+    const VkDebugUtilsMessengerCreateInfoEXT create{
+        VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT,
+        nullptr,
+        0,
+        VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT,
+        VK_DEBUG_UTILS_MESSAGE_TYPE_GENERAL_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT |
+            VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT,
+        &MessageLog::append,
+        messages_.get()};
+    messenger_ = vk::raii::DebugUtilsMessengerEXT(instance_, vk::DebugUtilsMessengerCreateInfoEXT(create));
 }
 
 Instance::~Instance() = default;

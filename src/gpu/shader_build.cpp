@@ -26,7 +26,7 @@ class OnceIncluder : public glslang::TShader::Includer {
         std::optional<ShaderText> file = files_(path);
         if (!file)
             return nullptr;
-        if (!seen_.insert(std::filesystem::path(path).lexically_normal().string()).second)
+        if (!seen_.insert(std::filesystem::path(file->name).lexically_normal().string()).second)
             file->text.clear();
         const auto& kept = texts_.emplace_back(std::make_unique<ShaderText>(std::move(*file)));
         auto& result = results_.emplace_back(
@@ -47,11 +47,20 @@ void initialiseGlslang() {
     std::call_once(once, [] { glslang::InitializeProcess(); });
 }
 
+// glslang 15 (Debian 13) hides TType. Vulkan's own rules say as much: every block but push constants has a
+// binding, and a uniform outside all blocks is a texel buffer.
+bool isPushConstant(const glslang::TObjectReflection& block) {
+    return block.getBinding() < 0;
+}
+bool isTexelBuffer(const glslang::TObjectReflection& uniform) {
+    return uniform.index < 0;
+}
+
 std::vector<KernelBinding> reflectBindings(const glslang::TProgram& program) {
     std::vector<KernelBinding> bindings;
     for (int i = 0; i < program.getNumUniformVariables(); ++i) {
         const glslang::TObjectReflection& uniform = program.getUniform(i);
-        if (uniform.getType()->getBasicType() == glslang::EbtSampler)
+        if (isTexelBuffer(uniform))
             bindings.push_back(
                 {uniform.name, static_cast<uint32_t>(uniform.getBinding()), BindingKind::uniformTexelBuffer});
     }
@@ -62,7 +71,7 @@ std::vector<KernelBinding> reflectBindings(const glslang::TProgram& program) {
     }
     for (int i = 0; i < program.getNumUniformBlocks(); ++i) {
         const glslang::TObjectReflection& block = program.getUniformBlock(i);
-        if (!block.getType()->getQualifier().layoutPushConstant)
+        if (!isPushConstant(block))
             bindings.push_back(
                 {block.name, static_cast<uint32_t>(block.getBinding()), BindingKind::uniformBuffer});
     }
@@ -75,7 +84,7 @@ uint32_t reflectPushConstantBytes(const glslang::TProgram& program) {
     uint32_t bytes = 0;
     for (int i = 0; i < program.getNumUniformBlocks(); ++i) {
         const glslang::TObjectReflection& block = program.getUniformBlock(i);
-        if (block.getType()->getQualifier().layoutPushConstant)
+        if (isPushConstant(block))
             bytes = static_cast<uint32_t>(block.size);
     }
     return bytes;
@@ -109,7 +118,8 @@ KernelCode compileKernel(const ShaderText& source, const ShaderFiles& includes) 
 
     glslang::TShader shader(EShLangCompute);
     shader.setStringsWithLengthsAndNames(&text, &length, &name, 1);
-    shader.setPreamble("#extension GL_GOOGLE_include_directive : require\n");
+    shader.setPreamble("#extension GL_GOOGLE_include_directive : require\n"
+                       "#extension GL_EXT_samplerless_texture_functions : require\n"); // utextureBuffer
     shader.setEnvInput(glslang::EShSourceGlsl, EShLangCompute, glslang::EShClientVulkan, 120);
     shader.setEnvClient(glslang::EShClientVulkan, glslang::EShTargetVulkan_1_2);
     shader.setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_5);
@@ -139,9 +149,10 @@ KernelCode compileKernel(const ShaderText& source, const ShaderFiles& includes) 
     return code;
 }
 
-KernelCode compileKernel(const std::filesystem::path& file, const std::filesystem::path& includeRoot) {
+KernelCode compileKernel(const std::filesystem::path& file, const std::filesystem::path& includeRoot,
+                         const ResolveInclude& resolve) {
     return compileKernel({file.string(), readFile(file)}, [&](const std::string& path) {
-        const std::filesystem::path included = includeRoot / path;
+        const std::filesystem::path included = includeRoot / (resolve ? resolve(path) : path);
         return std::filesystem::is_regular_file(included)
                    ? std::optional<ShaderText>({included.string(), readFile(included)})
                    : std::nullopt;

@@ -10,29 +10,33 @@ namespace {
 
 constexpr uint64_t kUniformBytes = 16384; // as much as any kernel declares
 
-const Buffer& addBuffer(Device& device, BindingKind kind, std::deque<Buffer>& buffers) {
-    switch (kind) {
-    case BindingKind::uniformTexelBuffer:
-        return buffers.emplace_back(device, "warm-up texels", 0, BufferUse::texels);
-    case BindingKind::storageBuffer:
-        return buffers.emplace_back(device, "warm-up storage", 0, BufferUse::storage);
-    case BindingKind::uniformBuffer:
-        break;
+// One buffer for every binding of a kind: no invocation looks at them.
+struct Dummies {
+    explicit Dummies(Device& device)
+        : texels(device, "warm-up texels", 0, BufferUse::texels),
+          storage(device, "warm-up storage", 0, BufferUse::storage),
+          uniform(device, "warm-up uniforms", kUniformBytes, BufferUse::uniform) {}
+
+    [[nodiscard]] const Buffer& of(BindingKind kind) const {
+        return kind == BindingKind::uniformTexelBuffer ? texels
+               : kind == BindingKind::storageBuffer    ? storage
+                                                       : uniform;
     }
-    return buffers.emplace_back(device, "warm-up uniforms", kUniformBytes, BufferUse::uniform);
-}
+
+    Buffer texels, storage, uniform;
+};
 
 } // namespace
 
 void warmUp(Device& device, std::span<const Kernel* const> kernels) {
-    std::deque<Buffer> buffers; // at fixed addresses, until all is done
-    std::deque<BoundKernel> bound;
+    const Dummies buffers(device);
+    std::deque<BoundKernel> bound; // at fixed addresses, until all is done
     Commands commands(device);
     commands.begin();
     for (const Kernel* kernel : kernels) {
         ResourceTable resources;
         for (const KernelBinding& binding : kernel->code().bindings)
-            resources.set(binding.name, addBuffer(device, binding.kind, buffers));
+            resources.set(binding.name, buffers.of(binding.kind));
         const std::vector<std::byte> parameters(kernel->code().pushConstantBytes);
         commands.dispatch(bound.emplace_back(device, *kernel, resources), 0, parameters);
     }

@@ -1,4 +1,4 @@
-// Pictures by stb_image and libwebp.
+// PNG by stb_image, WebP by libwebp, JPEG by libjpeg-turbo.
 #include "image/picture.h"
 
 #include <algorithm>
@@ -11,8 +11,8 @@
 #include <webp/decode.h>
 
 #include "base/error.h"
-#include "image/jpeg_check.h"
-#include "image/pixel_limit.h"
+#include "image/jpeg.h"
+#include "image/picture_limits.h"
 
 namespace lavalight {
 namespace {
@@ -21,30 +21,9 @@ constexpr int kChannels = 4;
 
 // A stream of deflate stands for at most 1032 times its bytes: 258 a match, whose two codes take a bit each.
 constexpr uint64_t kMostDeflateExpansion = 1032;
-// Every block of 8 x 8 takes one bit of a JPEG, if only in the first scan of a progressive one.
-constexpr uint64_t kMostJpegTexelsPerByte = 8 * 64;
-
-void requireFitting(int64_t width, int64_t height) {
-    if (width < 1 || height < 1)
-        throw Error("it has no texels");
-    if (static_cast<uint64_t>(width) > kMostTexels / static_cast<uint64_t>(height))
-        throw Error(fmt::format("it has {} x {} texels, at most {} are supported: scale it down", width,
-                                height, kMostTexels));
-}
-
-// Small files of a huge picture are damaged, or made to fill the memory. (WebP has no such bound: it may give
-// one colour to all texels in no bits at all.)
-void requirePlausible(int64_t width, int64_t height, size_t bytes, uint64_t mostTexelsPerByte) {
-    if (static_cast<uint64_t>(width * height) / mostTexelsPerByte > bytes)
-        throw Error(fmt::format("it is damaged: {} x {} texels cannot be in {} bytes", width, height, bytes));
-}
 
 bool isPng(std::string_view bytes) {
     return bytes.starts_with("\x89PNG\r\n\x1A\n");
-}
-
-bool isJpeg(std::string_view bytes) {
-    return bytes.starts_with("\xFF\xD8");
 }
 
 // RIFF, four bytes of length, WEBP.
@@ -78,7 +57,7 @@ PictureSize measureWebp(std::string_view bytes) {
     int height = 0;
     if (WebPGetInfo(reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size(), &width, &height) == 0)
         throw Error("it is a damaged WebP file");
-    requireFitting(width, height);
+    requirePictureFits(width, height);
     return {static_cast<uint32_t>(width), static_cast<uint32_t>(height), false};
 }
 
@@ -92,14 +71,12 @@ Picture decodeWebp(std::string_view bytes) {
     return picture;
 }
 
-PictureSize measureByStb(std::string_view bytes) {
+PictureSize measurePng(std::string_view bytes) {
     if (bytes.size() > static_cast<size_t>(std::numeric_limits<int>::max()))
         throw Error("it is larger than 2 GiB");
-    if (isJpeg(bytes))
-        requireSoundJpeg(bytes);
     const std::optional<PngHeader> png = headerOfPng(bytes);
     if (png) // stb calls what is too large for it unknown
-        requireFitting(png->width, png->height);
+        requirePictureFits(png->width, png->height);
     const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
     const int length = static_cast<int>(bytes.size());
     int width = 0;
@@ -107,8 +84,8 @@ PictureSize measureByStb(std::string_view bytes) {
     int channels = 0;
     if (stbi_info_from_memory(data, length, &width, &height, &channels) == 0)
         throw Error(fmt::format("it is damaged ({})", stbi_failure_reason()));
-    requireFitting(width, height);
-    requirePlausible(width, height, bytes.size(), png ? png->texelsPerByte : kMostJpegTexelsPerByte);
+    requirePictureFits(width, height);
+    requirePlausible(width, height, bytes.size(), png ? png->texelsPerByte : 8 * kMostDeflateExpansion);
     return {static_cast<uint32_t>(width), static_cast<uint32_t>(height),
             stbi_is_16_bit_from_memory(data, length) != 0};
 }
@@ -117,8 +94,8 @@ struct StbDeleter {
     void operator()(void* texels) const { stbi_image_free(texels); }
 };
 
-Picture decodeByStb(std::string_view bytes) {
-    const PictureSize size = measureByStb(bytes);
+Picture decodePng(std::string_view bytes) {
+    const PictureSize size = measurePng(bytes);
     const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
     const int length = static_cast<int>(bytes.size());
     int width = 0;
@@ -145,12 +122,12 @@ void requireKnown(std::string_view bytes) {
 
 PictureSize measurePicture(std::string_view bytes) {
     requireKnown(bytes);
-    return isWebp(bytes) ? measureWebp(bytes) : measureByStb(bytes);
+    return isWebp(bytes) ? measureWebp(bytes) : isJpeg(bytes) ? measureJpeg(bytes) : measurePng(bytes);
 }
 
 Picture decodePicture(std::string_view bytes) {
     requireKnown(bytes);
-    return isWebp(bytes) ? decodeWebp(bytes) : decodeByStb(bytes);
+    return isWebp(bytes) ? decodeWebp(bytes) : isJpeg(bytes) ? decodeJpeg(bytes) : decodePng(bytes);
 }
 
 } // namespace lavalight

@@ -15,6 +15,7 @@ struct Picture {
     uint32_t height = 0;
     bool is16Bit = false;
     std::vector<uint8_t> bytes; // 4 or, in the machine's byte order, 8 a texel
+    std::string damage{};       // what the decoder passed over; empty: nothing
 };
 
 struct PictureSize {
@@ -25,12 +26,13 @@ struct PictureSize {
     [[nodiscard]] uint64_t bytes() const { return uint64_t{width} * height * (is16Bit ? 8 : 4); }
 };
 
-// Of the picture that decodePicture would make. Throws Error, which does not name the picture, for other
-// formats, for pictures of too many texels, and of more than their bytes can hold.
+// The size of the picture that decodePicture would make. Throws Error, which does not name the picture, for
+// other formats, for pictures of too many texels, and of more than their bytes can hold.
 [[nodiscard]] PictureSize measurePicture(std::string_view bytes);
 
 // Decodes the bytes of a PNG, JPEG or WebP file, told apart by their first bytes. Grey becomes RGB, a missing
-// alpha 1. Throws Error as measurePicture does, before anything is allocated, and for damaged bytes.
+// alpha 1. Throws Error as measurePicture does, before anything is allocated, and for damaged bytes, unless a
+// JPEG can be shown all the same.
 [[nodiscard]] Picture decodePicture(std::string_view bytes);
 
 } // namespace lavalight

@@ -10,6 +10,32 @@ namespace lavalight {
 
 namespace {
 
+// Embree 3 takes a context with each ray; Embree 4 (Debian 13) takes none.
+class Tracer {
+  public:
+#if RTC_VERSION_MAJOR >= 4
+    void closest(RTCScene scene, RTCRayHit& query) {
+        rtcIntersect1(scene, &query);
+    }
+    void occluded(RTCScene scene, RTCRay& query) {
+        rtcOccluded1(scene, &query);
+    }
+#else
+    Tracer() {
+        rtcInitIntersectContext(&context_);
+    }
+    void closest(RTCScene scene, RTCRayHit& query) {
+        rtcIntersect1(scene, &context_, &query);
+    }
+    void occluded(RTCScene scene, RTCRay& query) {
+        rtcOccluded1(scene, &context_, &query);
+    }
+
+  private:
+    RTCIntersectContext context_;
+#endif
+};
+
 RTCRay toEmbree(const OracleRay& ray) {
     RTCRay result{};
     result.org_x = ray.origin.x;
@@ -62,12 +88,11 @@ EmbreeOracle::EmbreeOracle(std::span<const Triangle> triangles, Traversal traver
 
 std::vector<OracleHit> EmbreeOracle::closest(std::span<const OracleRay> rays) const {
     std::vector<OracleHit> hits(rays.size());
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
+    Tracer tracer;
     for (size_t i = 0; i < rays.size(); ++i) {
         RTCRayHit query{toEmbree(rays[i]), {}};
         query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-        rtcIntersect1(scene_.get(), &context, &query);
+        tracer.closest(scene_.get(), query);
         if (query.hit.geomID != RTC_INVALID_GEOMETRY_ID)
             hits[i] = {query.ray.tfar, query.hit.primID};
     }
@@ -76,11 +101,10 @@ std::vector<OracleHit> EmbreeOracle::closest(std::span<const OracleRay> rays) co
 
 std::vector<uint8_t> EmbreeOracle::occluded(std::span<const OracleRay> rays) const {
     std::vector<uint8_t> flags(rays.size());
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
+    Tracer tracer;
     for (size_t i = 0; i < rays.size(); ++i) {
         RTCRay query = toEmbree(rays[i]);
-        rtcOccluded1(scene_.get(), &context, &query);
+        tracer.occluded(scene_.get(), query);
         flags[i] = query.tfar < 0.0f; // Embree's mark of an occluded ray
     }
     return flags;

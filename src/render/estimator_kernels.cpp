@@ -3,37 +3,35 @@
 #include <cassert>
 #include <chrono>
 
+#include "device_scene/scene_features.h"
 #include "gpu/warm_up.h"
+#include "render/setting_table.h"
 
 namespace lavalight {
 
 std::vector<gpu::SpecialisationConstant> estimatorConstants(const EstimatorSettings& settings,
-                                                            uint32_t features) {
-    return {{CONSTANT_SAMPLER, static_cast<uint32_t>(settings.sampler)},
-            {CONSTANT_HEMISPHERE, static_cast<uint32_t>(settings.hemisphere)},
-            {CONSTANT_NEE, settings.nextEventEstimation ? 1u : 0u},
-            {CONSTANT_MIS, static_cast<uint32_t>(settings.mis)},
-            {CONSTANT_ROULETTE, static_cast<uint32_t>(settings.roulette)},
-            {CONSTANT_MIS_SURVIVAL, settings.misSurvival ? 1u : 0u},
-            {CONSTANT_FRESNEL, static_cast<uint32_t>(settings.fresnel)},
-            {CONSTANT_MULTIPLE_SCATTERING, settings.multipleScattering ? 1u : 0u},
-            {CONSTANT_TEXTURE_FILTER, static_cast<uint32_t>(settings.textureFilter)},
-            {CONSTANT_FEATURES, features}};
+                                                            SceneFeatures features) {
+    const auto [first, second] = featureConstants(features);
+    std::vector<gpu::SpecialisationConstant> constants{first, second};
+    for (const SettingRow& row : settingRows())
+        if (const auto* values = std::get_if<NamedValues>(&row.values); values && values->constant)
+            constants.push_back({*values->constant, values->get(settings)});
+    return constants;
 }
 
-std::vector<std::string_view> estimatorKernelNames(Kernels kernels) {
-    assert(kernels != Kernels::automatic);
-    if (kernels == Kernels::fused)
+std::vector<std::string_view> estimatorKernelNames(Schedule schedule) {
+    assert(schedule != Schedule::automatic);
+    if (schedule == Schedule::fused)
         return {"path", "accumulate"};
     return {"generate", "extend", "shade", "prepare", "connect", "accumulate"};
 }
 
-EstimatorKernels::EstimatorKernels(gpu::Device& device, Kernels kernels, const EstimatorSettings& settings,
-                                   uint32_t features, const KernelSource& source)
-    : way_(kernels), constants_(estimatorConstants(settings, features)) {
+EstimatorKernels::EstimatorKernels(gpu::Device& device, Schedule schedule, const EstimatorSettings& settings,
+                                   SceneFeatures features, const KernelSource& source)
+    : schedule_(schedule), constants_(estimatorConstants(settings, features)) {
     const auto start = std::chrono::steady_clock::now();
     std::vector<const gpu::Kernel*> made;
-    for (const std::string_view name : estimatorKernelNames(kernels))
+    for (const std::string_view name : estimatorKernelNames(schedule))
         made.push_back(
             &kernels_.try_emplace(std::string(name), device, source(name), constants_).first->second);
     gpu::warmUp(device, made);
@@ -48,18 +46,25 @@ std::vector<std::string> EstimatorKernels::changed(const KernelSource& source) c
     return names;
 }
 
-void EstimatorKernels::reload(gpu::Device& device, const KernelSource& source) {
-    std::map<std::string, gpu::Kernel, std::less<>> fresh;
+KernelMap EstimatorKernels::compileChanged(gpu::Device& device, const KernelSource& source) const {
+    KernelMap fresh;
     std::vector<const gpu::Kernel*> made;
     for (const std::string& name : changed(source))
         made.push_back(&fresh.try_emplace(name, device, source(name), constants_).first->second);
-    gpu::warmUp(device, made);
-    for (auto& [name, kernel] : fresh)
-        kernels_.insert_or_assign(name, std::move(kernel));
+    if (!made.empty())
+        gpu::warmUp(device, made);
+    return fresh;
 }
 
-bool EstimatorKernels::serve(Kernels kernels, const EstimatorSettings& settings, uint32_t features) const {
-    return kernels == way_ && estimatorConstants(settings, features) == constants_;
+void EstimatorKernels::replace(KernelMap compiled) noexcept {
+    for (const auto& [name, kernel] : compiled)
+        kernels_.erase(name);
+    kernels_.merge(compiled); // kernels stay at their addresses, which bound ones know
+}
+
+bool EstimatorKernels::serve(Schedule schedule, const EstimatorSettings& settings,
+                             SceneFeatures features) const {
+    return schedule == schedule_ && estimatorConstants(settings, features) == constants_;
 }
 
 const gpu::Kernel& EstimatorKernels::operator[](std::string_view name) const {

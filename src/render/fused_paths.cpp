@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "shared/scene.h"
+#include "shared/features.h"
 
 namespace lavalight {
 namespace {
@@ -52,8 +52,8 @@ gpu::ResourceTable FusedPaths::State::table() const {
 
 FusedPaths::Band::Band(gpu::Device& device, const State& state, const WaveInputs& inputs,
                        const FilmBand& film)
-    : resources(device, inputs, film, state.table()), path(device, inputs.kernels["path"], resources.table),
-      accumulate(device, inputs.kernels["accumulate"], resources.table) {}
+    : resources(device, inputs, film, state.table()), path(device, inputs.kernel("path"), resources.table),
+      accumulate(device, inputs.kernel("accumulate"), resources.table) {}
 
 FusedPaths::FusedPaths(gpu::Device& device, const WaveInputs& inputs)
     : WaveRenderer(device),

@@ -13,6 +13,7 @@
 #include "gpu/commands.h"
 #include "gpu/device.h"
 #include "image/rendering.h"
+#include "render/estimator_kernels.h"
 #include "render/film.h"
 #include "render/settings.h"
 #include "render/wave_renderer.h"
@@ -53,23 +54,24 @@ class Renderer {
     // pixel's.
     void step(uint32_t mostSlots);
     // Whether all samples are taken.
-    [[nodiscard]] bool isDone() const { return position_.samplesDone >= settings_.samples; }
+    [[nodiscard]] bool isDone() const { return position_.samplesDone >= settings_.stop.samples; }
     [[nodiscard]] const RenderPosition& position() const { return position_; }
     // The same, whatever the bands, and back with the film that belongs to it: what follows has the bits that
     // it would have had. Its pass must not take more samples at once than there are slots.
     [[nodiscard]] FilmProgress progress() const;
     void continueFrom(const FilmProgress& progress, const RawFilm& film);
 
-    // Goes on with another view, or other settings, and an empty film. The scene stays on the device; kernels
-    // are compiled where those there are do not serve. `scene` is still the same, and so are its lights
-    // (keepsLights). Throws Error with everything as it was.
+    // Goes on with another view, settings or kernels, and an empty film. The scene stays on the device;
+    // kernels are compiled where `source` has other code or those there are do not serve. `scene` is still
+    // the same, and so are its lights (keepsLights). Throws Error with everything as it was, though the image
+    // may have to start from its first sample. Until it is done, two states of a wave take memory.
     void restart(const Scene& scene, const Camera& camera, const RenderSettings& wanted,
-                 const KernelSource& source = embeddedKernel);
+                 const KernelSource& source);
 
     // Names of the kernels whose code is another by `source`. Throws Error where one does not compile. May be
     // asked while it renders.
     [[nodiscard]] std::vector<std::string> changedKernels(const KernelSource& source) const;
-    // Goes on with those kernels, and an empty film. Throws Error as above: then nothing has changed.
+    // Goes on with those kernels, and an empty film. Throws Error as restart() does.
     void reloadKernels(const KernelSource& source);
 
     [[nodiscard]] const Film& film() const { return film_; }
@@ -85,10 +87,14 @@ class Renderer {
     [[nodiscard]] const RenderSettings& settings() const { return settings_; }
 
   private:
-    void startAnew();
+    struct Fresh;
+    [[nodiscard]] bool wantsAlbedoTable(const KernelSource& source) const;
+    void compileChanged(Fresh& fresh, const KernelSource& source) const;
+    void startAnew(Fresh fresh);
+    void emptyFilm();
     [[nodiscard]] uint32_t nextPass() const;
     [[nodiscard]] double fractionDone() const;
-    [[nodiscard]] bool isTimed() const { return settings_.seconds > 0.0; }
+    [[nodiscard]] bool isTimed() const { return settings_.stop.seconds > 0.0; }
 
     struct Setup;
     Renderer(gpu::Device& device, const RenderSettings& settings,
@@ -98,12 +104,13 @@ class Renderer {
     gpu::Device* device_;
     RenderSettings settings_;
     FrameParameters frame_;
-    uint32_t sceneFeatures_; // kFeature..., without the camera's
+    SceneFeatures sceneFeatures_; // kFeature..., without the camera's
     EstimatorKernels kernels_;
     GpuScene scene_;
     Film film_;
     std::unique_ptr<WaveRenderer> waves_;
     RenderPosition position_;
+    bool filmIsEmptied_ = true; // false: that failed, and has to be done before the first sample
 };
 
 // What --target-error is compared with: mean(Var / (mean^2 + 0.01)) over pixels and channels, Var being the
@@ -117,8 +124,8 @@ class Renderer {
 // Whether a renderer of settings `a` may restart() with `b`, as far as the lights are concerned.
 [[nodiscard]] bool keepsLights(const RenderSettings& a, const RenderSettings& b);
 
-// Kernels and wave size where the settings leave them to the device.
-[[nodiscard]] RenderSettings resolveKernels(RenderSettings settings, bool isCpu);
+// Fills in the schedule and the wave size where the settings leave them to the device.
+[[nodiscard]] RenderSettings resolveSchedule(RenderSettings settings, bool isCpu);
 
 // Parameters for the kernels, but for lights; the vertical field of view is kept whatever the image's aspect
 // ratio.

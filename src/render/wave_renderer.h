@@ -4,8 +4,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "device_scene/gpu_scene.h"
@@ -13,7 +15,6 @@
 #include "gpu/buffer.h"
 #include "gpu/commands.h"
 #include "gpu/kernel.h"
-#include "render/estimator_kernels.h"
 #include "render/film.h"
 #include "render/settings.h"
 #include "shared/frame.h"
@@ -45,17 +46,18 @@ class WaveRenderer {
     std::vector<uint64_t> raysPerBounce_;
 };
 
-// What decides how waves are rendered. Scene, film and kernels must outlive the renderer;
-// `frame` says what scene, camera and settings decide (the size of a band is filled in).
+// What decides how waves are rendered. Kernels, and the buffers of scene, table and film, must outlive the
+// renderer; `frame` says what scene, camera and settings decide (the size of a band is filled in).
 struct WaveInputs {
     const GpuScene& scene;
+    const gpu::Buffer& albedoTable; // which may be another than the scene's
     const Film& film;
     const FrameParameters& frame;
-    const EstimatorKernels& kernels;
+    std::function<const gpu::Kernel&(std::string_view name)> kernel;
 };
 
-// Settings::kernels must not be automatic. The device must outlive the renderer.
-[[nodiscard]] std::unique_ptr<WaveRenderer> makeWaveRenderer(gpu::Device& device, Kernels kernels,
+// The schedule must not be automatic. The device must outlive the renderer.
+[[nodiscard]] std::unique_ptr<WaveRenderer> makeWaveRenderer(gpu::Device& device, Schedule schedule,
                                                              const WaveInputs& inputs);
 
 // A band of the film with its frame parameters, added to `state`, the buffers that all bands share.

@@ -36,12 +36,12 @@ gpu::ResourceTable Wavefront::State::table() const {
 
 Wavefront::Band::Band(gpu::Device& device, const State& state, const WaveInputs& inputs, const FilmBand& film)
     : resources(device, inputs, film, state.table()),
-      generate(device, inputs.kernels["generate"], resources.table),
-      extend(device, inputs.kernels["extend"], resources.table),
-      shade(device, inputs.kernels["shade"], resources.table),
-      prepare(device, inputs.kernels["prepare"], resources.table),
-      connect(device, inputs.kernels["connect"], resources.table),
-      accumulate(device, inputs.kernels["accumulate"], resources.table) {}
+      generate(device, inputs.kernel("generate"), resources.table),
+      extend(device, inputs.kernel("extend"), resources.table),
+      shade(device, inputs.kernel("shade"), resources.table),
+      prepare(device, inputs.kernel("prepare"), resources.table),
+      connect(device, inputs.kernel("connect"), resources.table),
+      accumulate(device, inputs.kernel("accumulate"), resources.table) {}
 
 Wavefront::Wavefront(gpu::Device& device, const WaveInputs& inputs)
     : WaveRenderer(device), maxBounces_(inputs.frame.maxBounces),

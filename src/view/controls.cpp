@@ -17,8 +17,17 @@ constexpr float kClickPoints = 3.0f;
 // Share of the distance to the pivot that a notch of the wheel takes.
 constexpr float kWheelStep = 0.1f;
 
-float pressed(int plus, int minus) {
-    return (ImGui::IsKeyDown(plus) ? 1.0f : 0.0f) - (ImGui::IsKeyDown(minus) ? 1.0f : 0.0f);
+// Dear ImGui has key numbers of its own since 1.87; 1.86 (Debian 12) takes GLFW's.
+bool isDown(char letter) {
+#if IMGUI_VERSION_NUM >= 18700
+    return ImGui::IsKeyDown(static_cast<ImGuiKey>(ImGuiKey_A + (letter - 'A')));
+#else
+    return ImGui::IsKeyDown(GLFW_KEY_A + (letter - 'A'));
+#endif
+}
+
+float pressed(char plus, char minus) {
+    return (isDown(plus) ? 1.0f : 0.0f) - (isDown(minus) ? 1.0f : 0.0f);
 }
 
 glm::vec2 of(const ImVec2& v) {
@@ -45,8 +54,7 @@ void fly(CameraRig& rig, ControlAnswer& answer) {
     const ImGuiIO& io = ImGui::GetIO();
     if (io.KeyCtrl)
         return;
-    const glm::vec3 way(pressed(GLFW_KEY_D, GLFW_KEY_A), pressed(GLFW_KEY_E, GLFW_KEY_Q),
-                        pressed(GLFW_KEY_W, GLFW_KEY_S));
+    const glm::vec3 way(pressed('D', 'A'), pressed('E', 'Q'), pressed('W', 'S'));
     answer.isFlying = way != glm::vec3(0.0f);
     if (!answer.isFlying)
         return;
@@ -66,7 +74,7 @@ void click(ControlAnswer& answer) {
     const glm::vec2 moved = at - of(io.MouseClickedPos[ImGuiMouseButton_Left]);
     if (!ImGui::IsMouseReleased(ImGuiMouseButton_Left) || glm::length(moved) > kClickPoints)
         return;
-    if (ImGui::IsKeyDown(GLFW_KEY_F))
+    if (isDown('F'))
         answer.focus = at;
     else if (!io.MouseDownOwned[ImGuiMouseButton_Left])
         answer.inspect = at;

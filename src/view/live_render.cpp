@@ -23,6 +23,11 @@ struct LiveRender::Work {
     explicit Work(gpu::Device& device)
         : tone(device), sides{LiveSide(device, tone), LiveSide(device, tone)} {}
 
+    // Shows both sides of what is asked for, or throws Error with what they showed before.
+    void show(gpu::Device& device, const LiveRequest& request);
+    [[nodiscard]] bool isComplete() const {
+        return sides[0].isComplete() && (!isSplit || sides[1].isComplete());
+    }
     // The side that has had less time, of those that have work; null: none has.
     [[nodiscard]] LiveSide* next() {
         LiveSide* chosen = nullptr;
@@ -101,14 +106,25 @@ void LiveRender::run() {
 void LiveRender::loop() {
     Work work(device_);
     while (takeOrders(work)) {
-        if (LiveSide* side = work.next())
-            side->step();
-        const bool isComplete = work.sides[0].isComplete() && (!work.isSplit || work.sides[1].isComplete());
-        const bool isDone = work.next() == nullptr;
-        if (isComplete && (work.isNew || isDone || Clock::now() - work.shown >= kPictureEvery))
-            publish(work);
+        try {
+            advance(work);
+        } catch (const gpu::DeviceLost&) {
+            throw;
+        } catch (const Error& error) { // whatever fails in the midst of a wave leaves a film of no use
+            for (LiveSide& side : work.sides)
+                side.giveUp();
+            report(error.what());
+        }
         device_.requireNoValidationMessages();
     }
+}
+
+void LiveRender::advance(Work& work) {
+    if (LiveSide* side = work.next())
+        side->step();
+    const bool isDone = work.next() == nullptr;
+    if (work.isComplete() && (work.isNew || isDone || Clock::now() - work.shown >= kPictureEvery))
+        publish(work);
 }
 
 // Waits for something to do; false: it is over.
@@ -134,21 +150,38 @@ bool LiveRender::takeOrders(Work& work) {
     return true;
 }
 
+void LiveRender::Work::show(gpu::Device& device, const LiveRequest& request) {
+    const KernelSource source = sourceOf(request.shaders);
+    std::optional<ToneMapper> fresh;
+    if (tone.isChanged(source))
+        fresh.emplace(device, source);
+    const std::optional<LiveRequest> before =
+        sides[0].hasImage() ? std::optional(sides[0].request()) : std::nullopt;
+    sides[0].show(request);
+    if (request.other) {
+        LiveRequest other = request;
+        other.settings.estimator = *request.other;
+        other.settings.estimator.seed = request.settings.estimator.seed;
+        try {
+            sides[1].show(other);
+        } catch (const gpu::DeviceLost&) {
+            throw;
+        } catch (const Error&) {
+            if (before)
+                sides[0].show(*before);
+            throw;
+        }
+    }
+    isSplit = request.other.has_value();
+    if (fresh)
+        tone = std::move(*fresh);
+}
+
 // What fails for one request may do for another; only without a device nothing will.
 void LiveRender::change(Work& work, const LiveRequest& request) {
+    work.isNew = true;
     try {
-        work.isSplit = request.other.has_value();
-        work.isNew = true;
-        const KernelSource source = sourceOf(request.shaders);
-        if (work.tone.isChanged(source))
-            work.tone = ToneMapper(device_, source);
-        work.sides[0].show(request);
-        if (work.isSplit) {
-            LiveRequest other = request;
-            other.settings.estimator = *request.other;
-            other.settings.estimator.seed = request.settings.estimator.seed;
-            work.sides[1].show(other);
-        }
+        work.show(device_, request);
     } catch (const gpu::DeviceLost&) {
         throw;
     } catch (const Error& error) {

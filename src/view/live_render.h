@@ -21,7 +21,9 @@ struct LiveNews {
     std::array<std::optional<LiveView>, 2> views; // of the request's settings, and of its `other` ones
     std::optional<PixelInspection> inspection;
     std::vector<std::string> messages; // of what was saved
-    std::vector<std::string> errors;   // of what could not be done; the image from before goes on, if it can
+    // What could not be done: the image from before goes on, unless it was the one that failed. Then there is
+    // none until the next show().
+    std::vector<std::string> errors;
     bool isReady = false;    // the newest request is what is rendered: nothing is being compiled or uploaded
     bool isFinished = false; // all samples are taken
 };
@@ -64,6 +66,7 @@ class LiveRender {
     void order(const Change& change);
     void run();
     void loop();
+    void advance(Work& work);
     [[nodiscard]] bool takeOrders(Work& work);
     void change(Work& work, const LiveRequest& request);
     void publish(Work& work);

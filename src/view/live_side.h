@@ -20,21 +20,25 @@ class LiveSide {
     // Makes the image the one that is asked for. Whatever of the one before serves is kept. Throws Error with
     // the image from before, which may have to start again, or with none where even that fails.
     void show(const LiveRequest& request);
-    // Takes samples for about as long as a frame may take. Does nothing once all are taken.
+    // Takes samples for about as long as a frame may take. Does nothing once all are taken. After an Error
+    // the image is of no use: giveUp().
     void step();
+    // Without an image until the next show().
+    void giveUp();
 
     [[nodiscard]] bool hasWork() const { return renderer_ && !renderer_->isDone(); }
     // Whether each pixel has a sample.
     [[nodiscard]] bool isComplete() const { return renderer_ && renderer_->position().samplesDone > 0; }
-    // Spent on the image so far.
+    // Seconds spent on the image so far.
     [[nodiscard]] double seconds() const { return statistics_.seconds; }
 
     [[nodiscard]] LiveView view();
-    // Of the pixel nearest to that one, of the request's size. The first one compiles a kernel.
+    // Inspects the pixel nearest to that one, of the request's size. The first one compiles a kernel.
     [[nodiscard]] PixelInspection inspect(const glm::uvec2& pixel, uint32_t sample);
     // There must be an image.
     [[nodiscard]] const Renderer& renderer() const { return *renderer_; }
     [[nodiscard]] const LiveRequest& request() const { return *request_; }
+    [[nodiscard]] bool hasImage() const { return renderer_ != nullptr; }
 
   private:
     [[nodiscard]] RenderSettings filmSettings(const LiveRequest& request) const;

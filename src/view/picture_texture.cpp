@@ -29,32 +29,35 @@ vk::raii::DeviceMemory PictureTexture::memoryFor(const vk::MemoryRequirements& n
     throw Error("cannot show a picture: the device has no memory for it");
 }
 
-void PictureTexture::allocate(const glm::uvec2& size) {
+PictureTexture::Store PictureTexture::allocate(const glm::uvec2& size) const {
+    using Memory = vk::MemoryPropertyFlagBits;
     const vk::DeviceSize bytes = vk::DeviceSize{4} * size.x * size.y;
+    Store store;
     gpu::checked("make", "the window's picture", [&] {
-        staging_ = vk::raii::Buffer(*device_, {{}, bytes, vk::BufferUsageFlagBits::eTransferSrc});
-        stagingMemory_ =
-            memoryFor(staging_.getMemoryRequirements(),
-                      vk::MemoryPropertyFlagBits::eHostVisible | vk::MemoryPropertyFlagBits::eHostCoherent);
-        staging_.bindMemory(*stagingMemory_, 0);
-        mapped_ = stagingMemory_.mapMemory(0, bytes);
-        image_ = vk::raii::Image(
+        store.staging = vk::raii::Buffer(*device_, {{}, bytes, vk::BufferUsageFlagBits::eTransferSrc});
+        store.stagingMemory =
+            memoryFor(store.staging.getMemoryRequirements(), Memory::eHostVisible | Memory::eHostCoherent);
+        store.staging.bindMemory(*store.stagingMemory, 0);
+        store.mapped = store.stagingMemory.mapMemory(0, bytes);
+        store.image = vk::raii::Image(
             *device_,
             vk::ImageCreateInfo({}, vk::ImageType::e2D, vk::Format::eR8G8B8A8Unorm, {size.x, size.y, 1}, 1, 1,
                                 vk::SampleCountFlagBits::e1, vk::ImageTiling::eOptimal,
                                 vk::ImageUsageFlagBits::eTransferSrc | vk::ImageUsageFlagBits::eTransferDst));
-        imageMemory_ = memoryFor(image_.getMemoryRequirements(), vk::MemoryPropertyFlagBits::eDeviceLocal);
-        image_.bindMemory(*imageMemory_, 0);
+        store.imageMemory = memoryFor(store.image.getMemoryRequirements(), Memory::eDeviceLocal);
+        store.image.bindMemory(*store.imageMemory, 0);
         return true;
     });
-    size_ = size;
+    return store;
 }
 
 void PictureTexture::set(const glm::uvec2& size, std::span<const uint32_t> pixels) {
     assert(pixels.size() == size_t{size.x} * size.y && !pixels.empty());
-    if (size != size_)
-        allocate(size);
-    std::memcpy(mapped_, pixels.data(), pixels.size_bytes());
+    if (size != size_) {
+        store_ = allocate(size);
+        size_ = size;
+    }
+    std::memcpy(store_.mapped, pixels.data(), pixels.size_bytes());
     isUploaded_ = false;
 }
 
@@ -63,14 +66,14 @@ void PictureTexture::upload(const vk::raii::CommandBuffer& commands) {
     using Access = vk::AccessFlagBits;
     const vk::ImageMemoryBarrier take({}, Access::eTransferWrite, vk::ImageLayout::eUndefined,
                                       vk::ImageLayout::eTransferDstOptimal, VK_QUEUE_FAMILY_IGNORED,
-                                      VK_QUEUE_FAMILY_IGNORED, *image_, kAll);
+                                      VK_QUEUE_FAMILY_IGNORED, *store_.image, kAll);
     commands.pipelineBarrier(Stage::eTransfer, Stage::eTransfer, {}, {}, {}, take);
-    commands.copyBufferToImage(*staging_, *image_, vk::ImageLayout::eTransferDstOptimal,
+    commands.copyBufferToImage(*store_.staging, *store_.image, vk::ImageLayout::eTransferDstOptimal,
                                vk::BufferImageCopy(0, 0, 0, kLayer, {}, {size_.x, size_.y, 1}));
     const vk::ImageMemoryBarrier give(Access::eTransferWrite, Access::eTransferRead,
                                       vk::ImageLayout::eTransferDstOptimal,
                                       vk::ImageLayout::eTransferSrcOptimal, VK_QUEUE_FAMILY_IGNORED,
-                                      VK_QUEUE_FAMILY_IGNORED, *image_, kAll);
+                                      VK_QUEUE_FAMILY_IGNORED, *store_.image, kAll);
     commands.pipelineBarrier(Stage::eTransfer, Stage::eTransfer, {}, {}, {}, give);
     isUploaded_ = true;
 }
@@ -86,7 +89,7 @@ void PictureTexture::draw(const vk::raii::CommandBuffer& commands, const Target&
     const vk::ImageBlit blit(
         kLayer, {corner(from), {static_cast<int32_t>(to.x), static_cast<int32_t>(to.y), 1}}, kLayer,
         {corner(target.from), {static_cast<int32_t>(target.to.x), static_cast<int32_t>(target.to.y), 1}});
-    commands.blitImage(*image_, vk::ImageLayout::eTransferSrcOptimal, target.image,
+    commands.blitImage(*store_.image, vk::ImageLayout::eTransferSrcOptimal, target.image,
                        vk::ImageLayout::eTransferDstOptimal, blit, vk::Filter::eNearest);
 }
 

@@ -17,7 +17,8 @@ class PictureTexture {
 
     [[nodiscard]] bool isEmpty() const { return size_ == glm::uvec2(0); }
 
-    // Not while the device works with it. `pixels`: bytes R, G, B, 255, rows from the top.
+    // Not while the device works with it. `pixels`: bytes R, G, B, 255, rows from the top. Throws Error with
+    // the picture from before.
     void set(const glm::uvec2& size, std::span<const uint32_t> pixels);
 
     // Part of a window and where it lies, in pixels.
@@ -31,7 +32,16 @@ class PictureTexture {
     void draw(const vk::raii::CommandBuffer& commands, const Target& target);
 
   private:
-    void allocate(const glm::uvec2& size);
+    // What one size of picture takes.
+    struct Store {
+        vk::raii::Buffer staging = nullptr;
+        vk::raii::DeviceMemory stagingMemory = nullptr;
+        vk::raii::Image image = nullptr;
+        vk::raii::DeviceMemory imageMemory = nullptr;
+        void* mapped = nullptr;
+    };
+
+    [[nodiscard]] Store allocate(const glm::uvec2& size) const;
     void upload(const vk::raii::CommandBuffer& commands);
     [[nodiscard]] vk::raii::DeviceMemory memoryFor(const vk::MemoryRequirements& needs,
                                                    vk::MemoryPropertyFlags flags) const;
@@ -40,11 +50,7 @@ class PictureTexture {
     const vk::raii::Device* device_;
     glm::uvec2 size_{0};
     bool isUploaded_ = false;
-    vk::raii::Buffer staging_ = nullptr;
-    vk::raii::DeviceMemory stagingMemory_ = nullptr;
-    vk::raii::Image image_ = nullptr;
-    vk::raii::DeviceMemory imageMemory_ = nullptr;
-    void* mapped_ = nullptr;
+    Store store_;
 };
 
 } // namespace lavalight

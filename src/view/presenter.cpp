@@ -160,6 +160,9 @@ void Presenter::startOverlay() {
     info.CheckVkResultFn = requireSuccess;
     ImGui_ImplVulkan_Init(&info, *pass_);
     hasOverlay_ = true;
+#if IMGUI_VERSION_NUM >= 19000
+    ImGui_ImplVulkan_CreateFontsTexture(); // it submits a command buffer of its own
+#else
     const vk::raii::CommandBuffer& commands = commands_.front();
     commands.begin(vk::CommandBufferBeginInfo(vk::CommandBufferUsageFlagBits::eOneTimeSubmit));
     ImGui_ImplVulkan_CreateFontsTexture(*commands);
@@ -168,6 +171,7 @@ void Presenter::startOverlay() {
     queue_.submit(vk::SubmitInfo({}, {}, handle));
     queue_.waitIdle();
     ImGui_ImplVulkan_DestroyFontUploadObjects();
+#endif
 }
 
 void Presenter::waitForFrame() {

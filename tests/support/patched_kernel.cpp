@@ -5,6 +5,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "kernels/accelerator_name.h"
 #include "support/temporary_folder.h"
 
 namespace lavalight::test {
@@ -36,7 +37,8 @@ gpu::KernelCode patchedKernel(std::string_view kernel, const std::vector<Patch>&
              fs::copy_options::recursive | fs::copy_options::overwrite_existing);
     for (const Patch& patch : patches)
         apply(patch, folder.path());
-    return gpu::compileKernel(folder.path() / "kernels" / (std::string(kernel) + ".comp"), folder.path());
+    return gpu::compileKernel(folder.path() / "kernels" / (std::string(kernel) + ".comp"), folder.path(),
+                              includedFile);
 }
 
 } // namespace lavalight::test

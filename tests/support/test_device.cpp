@@ -13,8 +13,9 @@ gpu::DeviceConfig testDeviceConfig() {
 }
 
 gpu::Device& testDevice() {
-    static gpu::Device device(testDeviceConfig());
-    return device;
+    // The device is never destroyed: at exit the validation layer may be unloaded before it.
+    static auto* const device = new gpu::Device(testDeviceConfig());
+    return *device;
 }
 
 void DeviceTest::SetUp() {

@@ -15,8 +15,8 @@
 namespace lavalight {
 namespace {
 
-// Of those that a render uses. Headers of shared/ are not for experiments: the program's own memory is laid
-// out by them.
+// Paths of the files that a render uses. Headers of shared/ are not for experiments: the program's own memory
+// is laid out by them.
 std::vector<std::string> filesToChange() {
     std::vector<std::string> paths = embeddedShaderPaths();
     std::erase_if(paths, [](const std::string& path) {
@@ -37,8 +37,8 @@ std::string readmeText(const std::string& folder, const std::string& file) {
         "file and line:\n\n"
         "    lavalight render cornell-box --png picture.png --shaders {0} --watch\n\n"
         "- Signatures and structs that other files use must stay; what a function does is yours.\n"
-        "- `lavalight new-experiment {0} FILE` adds another file; `lavalight new-experiment --help` lists "
-        "them.\n"
+        "- `lavalight new-experiment {0} FILE` adds another file; a FILE that does not exist makes it list "
+        "all.\n"
         "- Files of `shared/` cannot be changed so: the program was built with them.\n"
         "- A change that keeps the mean (another sampling, another weight) must pass `compare`'s Z-test; "
         "the\n"
@@ -65,15 +65,15 @@ int NewExperimentCommand::run() {
     const std::vector<std::string> known = filesToChange();
     if (std::find(known.begin(), known.end(), file_) == known.end())
         throw UsageError(
-            fmt::format("new-experiment: {} is none of the shaders: {}", file_, fmt::join(known, ", ")));
+            fmt::format("new-experiment: {} is not one of the shaders: {}", file_, fmt::join(known, ", ")));
     const fs::path copy = fs::path(folder_) / file_;
     if (fs::exists(copy))
-        throw Error(fmt::format("{} is there already: it would be overwritten", copy.string()));
+        throw Error(fmt::format("cannot write {}: it exists already; give another folder", copy.string()));
     std::error_code failure;
     fs::create_directories(copy.parent_path(), failure);
     if (failure)
-        throw Error(
-            fmt::format("cannot make the folder {}: {}", copy.parent_path().string(), failure.message()));
+        throw Error(fmt::format("cannot create the directory {}: {}", copy.parent_path().string(),
+                                failure.message()));
     writeFileAtomically(copy, *embeddedShader(file_));
     const fs::path readme = fs::path(folder_) / "README.md";
     if (!fs::exists(readme))

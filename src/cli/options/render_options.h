@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -10,7 +11,7 @@
 #include "cli/options/device_options.h"
 #include "cli/options/environment_options.h"
 #include "render/settings.h"
-#include "scene/scene.h"
+#include "session/render_session.h"
 
 namespace lavalight {
 
@@ -27,14 +28,13 @@ class RenderOptions {
     [[nodiscard]] gpu::DeviceConfig device() const;
     // Whether the image is to hold its exact film.
     [[nodiscard]] bool keepsFilm() const { return !samples_.empty(); }
-    // Throws UsageError as CameraOptions::cameraOf does.
-    [[nodiscard]] Camera cameraOf(const Scene& scene) const { return camera_.cameraOf(scene); }
+    // All of it, for a scene by name or path; how images are written is left open.
+    [[nodiscard]] RenderPlan plan(const std::string& scene) const;
 
   private:
     void declareImage(CLI::App& parser);
     void declareStop(CLI::App& parser);
     void declareEstimator(CLI::App& parser);
-    void declareRoulette(CLI::App& parser);
     void declareDevice(CLI::App& parser);
     void takeRange(RenderSettings& settings) const;
 
@@ -44,8 +44,7 @@ class RenderOptions {
     CameraOptions camera_;
     EnvironmentOptions environment_;
     std::string preset_;
-    std::string clampIndirect_ = "off";
-    EstimatorSettings estimator_; // values of the options; those not given are taken from the preset
+    std::vector<std::string> estimator_; // values of settingRows(), where they are given
     RenderSettings settings_;
     std::optional<DeviceOptions> device_; // always, once declared
 };

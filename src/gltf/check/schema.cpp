@@ -20,10 +20,9 @@ using Json = nlohmann::json;
 // Real files stay below 20. The parsers and walkers behind this check recurse once per level.
 constexpr size_t kDeepestNesting = 200;
 
-// Bytes that a value takes while it is read: in two documents, ours and tinygltf's, and in the text between
-// them.
-// "[[],[],[]]" has a value in three bytes, each a list of its own.
-constexpr uint64_t kBytesPerValue = 192;
+// Bytes that a value takes in the parsed document: 17 for a number in an array, 109 for {"a":""}, measured
+// with libstdc++. "[[],[],[]]" has a value in three bytes, each a list of its own.
+constexpr uint64_t kBytesPerValue = 128;
 
 // Before any of it is parsed.
 void requireParsable(std::string_view text, const std::string& source) {

@@ -93,8 +93,10 @@ void addGeometryExtensionRules(std::vector<ObjectRule>& rules) {
 
 void addMotionRules(std::vector<ObjectRule>& rules) {
     rules.push_back({"skins[]",
-                     {index("inverseBindMatrices", "accessors"), index("skeleton", "nodes"),
-                      indices("joints", "nodes"), optional("name", Kind::text)}});
+                     {index("inverseBindMatrices", "accessors"),
+                      index("skeleton", "nodes"),
+                      {"joints", Kind::index, Need::required, kAnyLength, "nodes"},
+                      optional("name", Kind::text)}});
     rules.push_back({"animations[]",
                      {{"channels", Kind::object, Need::optional, kAnyLength},
                       {"samplers", Kind::object, Need::optional, kAnyLength},

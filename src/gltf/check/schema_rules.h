@@ -14,7 +14,7 @@ enum class Kind {
     flag,
     number,
     count,
-    small, // a count that fits the int in which tinygltf keeps it
+    small, // a count that fits an int
     positive,
     index,
     stride,        // a multiple of 4 from 4 to 252

@@ -5,6 +5,7 @@
 #include <array>
 #include <cassert>
 #include <cstring>
+#include <optional>
 
 #include <fmt/format.h>
 #include <glm/ext/vector_float1.hpp>
@@ -27,27 +28,26 @@ struct ElementLayout {
 };
 
 // Columns of matrices start at multiples of four bytes, but the last has no padding (section 3.6.2.4).
-ElementLayout layoutOf(int type, size_t component) {
+ElementLayout layoutOf(std::string_view type, size_t component) {
     const auto matrix = [component](size_t n) {
         const size_t column = (n * component + 3) / 4 * 4;
         return ElementLayout{(n - 1) * column + n * component, n * column};
     };
-    if (type == TINYGLTF_TYPE_MAT2)
-        return matrix(2);
-    if (type == TINYGLTF_TYPE_MAT3)
-        return matrix(3);
-    const size_t size =
-        component * static_cast<size_t>(tinygltf::GetNumComponentsInType(static_cast<uint32_t>(type)));
+    // "SCALAR", "VEC2" to "VEC4", "MAT2" to "MAT4": the schema check admits no others.
+    const auto digit = static_cast<size_t>(type.back() - '0');
+    if (type.starts_with("MAT"))
+        return matrix(digit);
+    const size_t size = component * (type.starts_with("VEC") ? digit : 1);
     return {size, size};
 }
 
-size_t componentSize(int componentType) {
+size_t componentSize(ComponentType componentType) {
     switch (componentType) {
-    case TINYGLTF_COMPONENT_TYPE_BYTE:
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+    case ComponentType::int8:
+    case ComponentType::uint8:
         return 1;
-    case TINYGLTF_COMPONENT_TYPE_SHORT:
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+    case ComponentType::int16:
+    case ComponentType::uint16:
         return 2;
     default:
         return 4; // the schema check admits no others
@@ -56,31 +56,38 @@ size_t componentSize(int componentType) {
 
 // A run of elements in a buffer view.
 struct Range {
-    int view = -1;
+    size_t view = 0;
     size_t offset = 0; // bytes into the view
     size_t count = 0;
     size_t elementSize = 0;
     size_t stride = 0;
 };
 
-const GltfBuffer& bufferOf(const GltfDocument& document, int view) {
-    const int buffer = document.model.bufferViews.at(static_cast<size_t>(view)).buffer;
-    return document.buffers.at(static_cast<size_t>(buffer));
+std::string nameOfView(const GltfDocument& document, size_t index) {
+    return describe("buffer view", index, document.list("bufferViews")[index].text("name"));
 }
 
-void requireInsideBuffer(const GltfDocument& document, int index) {
-    const tinygltf::BufferView& view = document.model.bufferViews.at(static_cast<size_t>(index));
-    const size_t size = bufferOf(document, index).byteLength;
-    if (view.byteOffset > size || view.byteLength > size - view.byteOffset)
+BufferRange rangeOfView(const GltfDocument& document, size_t index) {
+    const JsonView view = document.list("bufferViews")[index];
+    return {view.count("buffer", 0), view.count("byteOffset", 0), view.count("byteLength", 0)};
+}
+
+const GltfBuffer& bufferOf(const GltfDocument& document, size_t view) {
+    return document.buffers.at(rangeOfView(document, view).buffer);
+}
+
+void requireInsideBuffer(const GltfDocument& document, size_t index) {
+    const BufferRange view = rangeOfView(document, index);
+    const size_t size = document.buffers.at(view.buffer).byteLength;
+    if (view.offset > size || view.length > size - view.offset)
         throw document.error(fmt::format("{} covers {} bytes from {}, but buffer {} has {}",
-                                         describe("buffer view", static_cast<size_t>(index), view.name),
-                                         view.byteLength, view.byteOffset, view.buffer, size));
+                                         nameOfView(document, index), view.length, view.offset, view.buffer,
+                                         size));
 }
 
-std::string_view bytesOfView(const GltfDocument& document, int index) {
-    const tinygltf::BufferView& view = document.model.bufferViews.at(static_cast<size_t>(index));
-    return bytesOf(document.buffers, {static_cast<size_t>(view.buffer), view.byteOffset, view.byteLength},
-                   describe("buffer view", static_cast<size_t>(index), view.name), document.source);
+std::string_view bytesOfView(const GltfDocument& document, size_t index) {
+    return bytesOf(document.buffers, rangeOfView(document, index), nameOfView(document, index),
+                   document.source);
 }
 
 // The bytes of `range`, from its first element to the end of the view. Multiplies nothing that could
@@ -104,11 +111,11 @@ T load(std::string_view bytes) {
     return value;
 }
 
-uint32_t loadUnsigned(std::string_view bytes, int componentType) {
+uint32_t loadUnsigned(std::string_view bytes, ComponentType componentType) {
     switch (componentType) {
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+    case ComponentType::uint8:
         return load<uint8_t>(bytes);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+    case ComponentType::uint16:
         return load<uint16_t>(bytes);
     default:
         return load<uint32_t>(bytes);
@@ -116,61 +123,65 @@ uint32_t loadUnsigned(std::string_view bytes, int componentType) {
 }
 
 // Normalized integers after section 3.11 of the specification ("c / 127, not below -1").
-float loadComponent(std::string_view bytes, int componentType, bool normalized) {
+float loadComponent(std::string_view bytes, ComponentType componentType, bool normalized) {
     const auto scaled = [normalized](auto value, float largest) {
         return normalized ? std::max(static_cast<float>(value) / largest, -1.0f) : static_cast<float>(value);
     };
     switch (componentType) {
-    case TINYGLTF_COMPONENT_TYPE_BYTE:
+    case ComponentType::int8:
         return scaled(load<int8_t>(bytes), 127.0f);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+    case ComponentType::uint8:
         return scaled(load<uint8_t>(bytes), 255.0f);
-    case TINYGLTF_COMPONENT_TYPE_SHORT:
+    case ComponentType::int16:
         return scaled(load<int16_t>(bytes), 32767.0f);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+    case ComponentType::uint16:
         return scaled(load<uint16_t>(bytes), 65535.0f);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+    case ComponentType::uint32:
         return scaled(load<uint32_t>(bytes), 4294967295.0f);
     default:
         return load<float>(bytes);
     }
 }
 
-bool isUnsigned(int componentType) {
-    return componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
-           componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ||
-           componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
+bool isUnsigned(ComponentType componentType) {
+    return componentType == ComponentType::uint8 || componentType == ComponentType::uint16 ||
+           componentType == ComponentType::uint32;
 }
 
 // False for accessors into buffers that were declared without data. That is an error only where they are
 // read.
-bool hasData(const GltfDocument& document, const tinygltf::Accessor& accessor) {
-    const auto present = [&](int view) { return view < 0 || !bufferOf(document, view).bytes.empty(); };
-    const auto& sparse = accessor.sparse;
-    return present(accessor.bufferView) &&
-           (!sparse.isSparse || (present(sparse.indices.bufferView) && present(sparse.values.bufferView)));
+bool hasData(const GltfDocument& document, JsonView accessor) {
+    const auto present = [&](JsonView part) {
+        const std::optional<size_t> view = part.index("bufferView");
+        return !view || !bufferOf(document, *view).bytes.empty();
+    };
+    const JsonView sparse = accessor["sparse"];
+    return present(accessor) && present(sparse["indices"]) && present(sparse["values"]);
+}
+
+ComponentType componentTypeOf(JsonView object) {
+    return ComponentType{object.count("componentType", 0)};
 }
 
 } // namespace
 
-AccessorView::AccessorView(const GltfDocument& document, int index) {
-    const tinygltf::Accessor& accessor = document.model.accessors.at(static_cast<size_t>(index));
-    name_ = describe("accessor", static_cast<size_t>(index), accessor.name);
-    count_ = accessor.count;
-    type_ = accessor.type;
-    componentType_ = accessor.componentType;
-    normalized_ = accessor.normalized;
+AccessorView::AccessorView(const GltfDocument& document, size_t index) {
+    const JsonView accessor = document.list("accessors")[index];
+    name_ = describe("accessor", index, accessor.text("name"));
+    count_ = accessor.count("count", 0);
+    type_ = accessor.text("type");
+    componentType_ = componentTypeOf(accessor);
+    normalized_ = accessor.flag("normalized", false);
     const ElementLayout layout = layoutOf(type_, componentSize(componentType_));
     elementSize_ = layout.size;
     packedStride_ = layout.stride;
-    if (accessor.bufferView >= 0) {
-        const auto& view = document.model.bufferViews.at(static_cast<size_t>(accessor.bufferView));
-        stride_ = view.byteStride == 0 ? packedStride_ : view.byteStride;
+    if (const std::optional<size_t> view = accessor.index("bufferView")) {
+        stride_ = document.list("bufferViews")[*view].count("byteStride", packedStride_);
         if (stride_ < elementSize_)
             throw document.error(
                 fmt::format("{} has elements of {} bytes only {} bytes apart", name_, elementSize_, stride_));
-        const Range range{accessor.bufferView, accessor.byteOffset, count_, elementSize_, stride_};
-        bytes_ = bytesOfRange(document, name_, range);
+        bytes_ = bytesOfRange(document, name_,
+                              {*view, accessor.count("byteOffset", 0), count_, elementSize_, stride_});
     } else if (count_ > kMostZeros) {
         throw document.error(fmt::format("{} asks for {} elements without data, at most {} are supported",
                                          name_, count_, kMostZeros));
@@ -178,24 +189,25 @@ AccessorView::AccessorView(const GltfDocument& document, int index) {
         bytes_ = std::string_view(kZeros.data(), kZeros.size());
         stride_ = 0;
     }
-    if (accessor.sparse.isSparse)
-        readSparse(document, accessor);
+    if (const JsonView sparse = accessor["sparse"])
+        readSparse(document, sparse);
 }
 
-void AccessorView::readSparse(const GltfDocument& document, const tinygltf::Accessor& accessor) {
-    const auto& sparse = accessor.sparse;
-    replacedCount_ = static_cast<size_t>(sparse.count);
-    replacedType_ = sparse.indices.componentType;
+void AccessorView::readSparse(const GltfDocument& document, JsonView sparse) {
+    const JsonView indices = sparse["indices"];
+    const JsonView values = sparse["values"];
+    replacedCount_ = sparse.count("count", 0);
+    replacedType_ = componentTypeOf(indices);
     if (replacedCount_ == 0 || replacedCount_ > count_ || !isUnsigned(replacedType_))
         throw document.error(fmt::format("{} replaces {} of its {} elements, by indices of component type {}",
-                                         name_, replacedCount_, count_, replacedType_));
+                                         name_, replacedCount_, count_,
+                                         static_cast<uint64_t>(replacedType_)));
     const size_t indexSize = componentSize(replacedType_);
-    replacedNumbers_ =
-        bytesOfRange(document, name_ + " (sparse indices)",
-                     {sparse.indices.bufferView, static_cast<size_t>(sparse.indices.byteOffset),
-                      replacedCount_, indexSize, indexSize});
+    replacedNumbers_ = bytesOfRange(document, name_ + " (sparse indices)",
+                                    {indices.count("bufferView", 0), indices.count("byteOffset", 0),
+                                     replacedCount_, indexSize, indexSize});
     replacedElements_ = bytesOfRange(document, name_ + " (sparse values)",
-                                     {sparse.values.bufferView, static_cast<size_t>(sparse.values.byteOffset),
+                                     {values.count("bufferView", 0), values.count("byteOffset", 0),
                                       replacedCount_, elementSize_, packedStride_});
 }
 
@@ -230,7 +242,7 @@ void AccessorView::checkSparse(const GltfDocument& document) const {
 }
 
 bool AccessorView::isUnsignedScalar() const {
-    return type_ == TINYGLTF_TYPE_SCALAR && isUnsigned(componentType_);
+    return isScalar() && isUnsigned(componentType_);
 }
 
 bool AccessorView::isUnsignedVec4() const {
@@ -238,7 +250,7 @@ bool AccessorView::isUnsignedVec4() const {
 }
 
 bool AccessorView::isFloatMat4() const {
-    return type_ == TINYGLTF_TYPE_MAT4 && componentType_ == TINYGLTF_COMPONENT_TYPE_FLOAT;
+    return type_ == "MAT4" && componentType_ == ComponentType::float32;
 }
 
 template <class Vector>
@@ -246,7 +258,7 @@ Vector AccessorView::vectorAt(size_t i) const {
     constexpr auto kSize = static_cast<size_t>(Vector::length());
     assert(elementSize_ == kSize * componentSize(componentType_) && i < count_);
     const std::string_view element = elementAt(i);
-    if (componentType_ == TINYGLTF_COMPONENT_TYPE_FLOAT)
+    if (componentType_ == ComponentType::float32)
         return load<Vector>(element);
     const size_t size = elementSize_ / kSize;
     Vector value;
@@ -283,15 +295,16 @@ uint32_t AccessorView::unsignedAt(size_t i) const {
 }
 
 void checkAccessors(const GltfDocument& document) {
-    for (size_t i = 0; i < document.model.bufferViews.size(); ++i)
-        requireInsideBuffer(document, static_cast<int>(i));
+    for (size_t i = 0; i < document.list("bufferViews").size(); ++i)
+        requireInsideBuffer(document, i);
     size_t zeros = 0;
-    for (size_t i = 0; i < document.model.accessors.size(); ++i) {
-        const tinygltf::Accessor& accessor = document.model.accessors[i];
-        if (!hasData(document, accessor))
+    const JsonView accessors = document.list("accessors");
+    for (size_t i = 0; i < accessors.size(); ++i) {
+        if (!hasData(document, accessors[i]))
             continue;
-        AccessorView(document, static_cast<int>(i)).checkSparse(document);
-        zeros += accessor.bufferView < 0 ? accessor.count : 0; // kMostZeros each: no overflow
+        const AccessorView accessor(document, i);
+        accessor.checkSparse(document);
+        zeros += accessors[i].has("bufferView") ? 0 : accessor.count(); // kMostZeros each: no overflow
         if (zeros > kMostZerosInAll)
             throw document.error(fmt::format("its accessors ask for {} elements without data, at most {} are "
                                              "supported",

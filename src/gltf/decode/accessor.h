@@ -11,21 +11,31 @@
 
 namespace lavalight {
 
+// glTF's numbers for the types of components, which are those of OpenGL.
+enum class ComponentType : uint64_t {
+    int8 = 5120,
+    uint8 = 5121,
+    int16 = 5122,
+    uint16 = 5123,
+    uint32 = 5125,
+    float32 = 5126,
+};
+
 // One accessor of a document. The document must outlive it.
 class AccessorView {
   public:
     // Checks that every element lies inside its buffer view and the view inside its buffer. Throws Error
     // naming the accessor and the figures.
-    AccessorView(const GltfDocument& document, int accessor);
+    AccessorView(const GltfDocument& document, size_t accessor);
     AccessorView(const AccessorView&) = delete;
     AccessorView& operator=(const AccessorView&) = delete;
 
     [[nodiscard]] size_t count() const { return count_; }
     [[nodiscard]] const std::string& name() const { return name_; } // for messages
-    [[nodiscard]] bool isScalar() const { return type_ == TINYGLTF_TYPE_SCALAR; }
-    [[nodiscard]] bool isVec2() const { return type_ == TINYGLTF_TYPE_VEC2; }
-    [[nodiscard]] bool isVec3() const { return type_ == TINYGLTF_TYPE_VEC3; }
-    [[nodiscard]] bool isVec4() const { return type_ == TINYGLTF_TYPE_VEC4; }
+    [[nodiscard]] bool isScalar() const { return type_ == "SCALAR"; }
+    [[nodiscard]] bool isVec2() const { return type_ == "VEC2"; }
+    [[nodiscard]] bool isVec3() const { return type_ == "VEC3"; }
+    [[nodiscard]] bool isVec4() const { return type_ == "VEC4"; }
     [[nodiscard]] bool isUnsignedScalar() const;
     [[nodiscard]] bool isUnsignedVec4() const; // and not normalized
     [[nodiscard]] bool isFloatMat4() const;
@@ -48,14 +58,14 @@ class AccessorView {
   private:
     template <class Vector>
     [[nodiscard]] Vector vectorAt(size_t i) const;
-    void readSparse(const GltfDocument& document, const tinygltf::Accessor& accessor);
+    void readSparse(const GltfDocument& document, JsonView sparse);
     [[nodiscard]] uint32_t replacedAt(size_t number) const; // ascending, where the document has been checked
     [[nodiscard]] std::string_view elementAt(size_t i) const;
 
     std::string name_;
     size_t count_ = 0;
-    int type_ = 0;
-    int componentType_ = 0;
+    std::string_view type_; // "SCALAR", "VEC3", ..., in the document
+    ComponentType componentType_ = ComponentType::float32;
     bool normalized_ = false;
     size_t elementSize_ = 0;  // bytes
     size_t packedStride_ = 0; // bytes from one element to the next where nothing lies between
@@ -65,9 +75,9 @@ class AccessorView {
     // Elements that are replaced: looked up, for a copy of all would cost each use of a large accessor as
     // much.
     size_t replacedCount_ = 0;
-    int replacedType_ = 0;              // component type of their numbers
-    std::string_view replacedNumbers_;  // packed
-    std::string_view replacedElements_; // packedStride_ bytes apart
+    ComponentType replacedType_ = ComponentType::uint32; // of their numbers
+    std::string_view replacedNumbers_;                   // packed
+    std::string_view replacedElements_;                  // packedStride_ bytes apart
 };
 
 // Throws Error unless all accessors and buffer views of the document are sound, used or not.

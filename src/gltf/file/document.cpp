@@ -1,11 +1,8 @@
-// From bytes to a checked document: container, JSON, version, extensions, buffers, tinygltf's structures.
+// From bytes to a checked document: container, JSON, version, extensions, buffers.
 #include "gltf/file/document.h"
 
 #include <algorithm>
-#include <array>
 #include <cstdio>
-#include <exception>
-#include <limits>
 #include <set>
 
 #include <fmt/format.h>
@@ -17,6 +14,7 @@
 #include "gltf/decode/draco.h"
 #include "gltf/decode/meshopt.h"
 #include "gltf/file/container.h"
+#include "gltf/read/nodes.h"
 #include "gltf/read/variants.h"
 #include "scene/scene.h"
 
@@ -87,97 +85,33 @@ void sortExtensions(const Json& json, GltfDocument& document) {
                  [](const std::string& name) { return !isSupportedExtension(name); });
 }
 
-// tinygltf refuses index accessors without a buffer view, which glTF fills with zeros or sparse elements.
-// Accessors without one get a view of their own, the last; its number, the former count of views, is
-// returned.
-size_t giveEachAccessorAView(Json& part) {
-    const size_t views = part.contains("bufferViews") ? part["bufferViews"].size() : 0;
-    if (!part.contains("accessors"))
-        return views;
-    part["bufferViews"].push_back({{"buffer", 0}, {"byteLength", 1}});
-    for (Json& accessor : part["accessors"]) {
-        if (!accessor.contains("bufferView"))
-            accessor["bufferView"] = views;
+// What the table of rules cannot say: which parts a camera or a light of one type needs.
+void checkTypes(const GltfDocument& document) {
+    const JsonView cameras = document.list("cameras");
+    for (size_t i = 0; i < cameras.size(); ++i) {
+        const std::string& type = cameras[i].text("type");
+        const std::string name = describe("camera", i, cameras[i].text("name"));
+        if (type != "perspective" && type != "orthographic")
+            throw document.error(
+                fmt::format("{} has the type \"{}\" instead of perspective or orthographic", name, type));
+        if (!cameras[i].has(type))
+            throw document.error(fmt::format("{} has no \"{}\"", name, type));
     }
-    return views;
-}
-
-// The root's extensions that become structures: the punctual lights. tinygltf refuses spot lights without
-// their cone as well, but without naming the light.
-Json rootExtensions(const Json& json, const std::string& source) {
-    constexpr const char* kLights = "KHR_lights_punctual";
-    const Json extensions = json.value("extensions", Json::object());
-    if (!extensions.contains(kLights) || !extensions[kLights].contains("lights"))
-        return Json::object();
-    const Json& lights = extensions[kLights]["lights"];
+    const JsonView lights = document.punctualLights();
     for (size_t i = 0; i < lights.size(); ++i) {
-        if (lights[i].at("type") == "spot" && !lights[i].contains("spot"))
-            throw gltfError(source, describe("light", i, lights[i].value("name", "")) +
-                                        " is a spot light without \"spot\"");
+        if (lights[i].text("type") == "spot" && !lights[i].has("spot"))
+            throw document.error(describe("light", i, lights[i].text("name")) +
+                                 " is a spot light without \"spot\"");
     }
-    return {{kLights, {{"lights", lights}}}};
-}
-
-// tinygltf reads the parts of the file that become structures, after the checks; what would make it open
-// files or decode images stays out of its sight, because it follows offsets and addresses unchecked.
-tinygltf::Model parseModel(Json& json, const std::string& source) {
-    Json part;
-    for (const char* section : {"asset", "accessors", "animations", "bufferViews", "cameras", "materials",
-                                "meshes", "nodes", "scene", "scenes", "skins"}) {
-        if (json.contains(section))
-            part[section] = std::move(json[section]);
-    }
-    part["extensions"] = rootExtensions(json, source);
-    const size_t views = giveEachAccessorAView(part);
-    const std::string text = part.dump();
-    if (text.size() > std::numeric_limits<unsigned int>::max())
-        throw gltfError(source, "its JSON is larger than 4 GiB");
-    tinygltf::TinyGLTF parser;
-    tinygltf::Model model;
-    std::string errors;
-    std::string warnings;
-    bool parsed = false;
-    try {
-        parsed = parser.LoadASCIIFromString(&model, &errors, &warnings, text.data(),
-                                            static_cast<unsigned int>(text.size()), "", tinygltf::NO_REQUIRE);
-    } catch (const std::exception& error) {
-        errors += error.what();
-    }
-    if (!parsed)
-        throw gltfError(source, errors.empty() ? "it is not valid glTF" : errors);
-    model.bufferViews.resize(views);
-    for (tinygltf::Accessor& accessor : model.accessors) {
-        if (accessor.bufferView == static_cast<int>(views))
-            accessor.bufferView = -1;
-    }
-    return model;
 }
 
 // "{}" is an object of two bytes whose structure has a thousand.
-void requireMemoryForObjects(const Json& json, const std::string& source) {
-    constexpr size_t kOverhead = 2; // vectors have room for as many again, and we make structures of our own
-    const auto bytesOf = [&](const char* section, size_t size) {
-        return json.contains(section) ? kOverhead * size * json.at(section).size() : 0;
-    };
-    const uint64_t bytes =
-        bytesOf("accessors", sizeof(tinygltf::Accessor)) +
-        bytesOf("animations", sizeof(tinygltf::Animation)) +
-        bytesOf("bufferViews", sizeof(tinygltf::BufferView)) + bytesOf("cameras", sizeof(tinygltf::Camera)) +
-        bytesOf("materials", sizeof(tinygltf::Material) + sizeof(Material)) +
-        bytesOf("meshes", sizeof(tinygltf::Mesh)) +
-        bytesOf("nodes", sizeof(tinygltf::Node) + sizeof(glm::dmat4)) +
-        bytesOf("scenes", sizeof(tinygltf::Scene)) + bytesOf("skins", sizeof(tinygltf::Skin));
+void requireMemoryForObjects(const GltfDocument& document) {
+    constexpr size_t kOverhead = 2; // vectors have room for as many again
+    const uint64_t bytes = kOverhead * (sizeof(Material) * document.list("materials").size() +
+                                        2 * sizeof(PlacedNode) * document.list("nodes").size());
     if (const std::string shortage = memoryShortage(bytes); !shortage.empty())
-        throw gltfError(source, "its nodes, materials and other objects " + shortage);
-}
-
-// tinygltf leaves out what it cannot read; then indices would point to the wrong objects.
-void requireComplete(const GltfDocument& document, const std::vector<size_t>& primitiveCounts) {
-    for (size_t i = 0; i < primitiveCounts.size(); ++i) {
-        const tinygltf::Mesh& mesh = document.model.meshes.at(i);
-        if (mesh.primitives.size() != primitiveCounts[i])
-            throw document.error(describe("mesh", i, mesh.name) + " has a primitive that cannot be read");
-    }
+        throw document.error("its nodes, materials and other objects " + shortage);
 }
 
 } // namespace
@@ -195,14 +129,9 @@ GltfDocument parseGltf(std::string_view bytes, const GltfSource& source) {
     document.textures = readTextures(json);
     document.images = loadImages(json, document.buffers, source);
     document.variants = readVariants(json);
-    std::vector<size_t> primitiveCounts;
-    if (json.contains("meshes")) {
-        for (const Json& mesh : json.at("meshes"))
-            primitiveCounts.push_back(mesh.at("primitives").size());
-    }
-    requireMemoryForObjects(json, source.name);
-    document.model = parseModel(json, source.name);
-    requireComplete(document, primitiveCounts);
+    document.json = std::move(json);
+    checkTypes(document);
+    requireMemoryForObjects(document);
     return document;
 }
 

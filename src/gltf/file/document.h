@@ -6,10 +6,11 @@
 #include <string_view>
 #include <vector>
 
-#include <tiny_gltf.h>
+#include <nlohmann/json.hpp>
 
 #include "gltf/file/buffers.h"
 #include "gltf/file/image.h"
+#include "gltf/file/json_view.h"
 #include "gltf/read/notes.h"
 #include "gltf/read/texture.h"
 
@@ -17,17 +18,22 @@ namespace lavalight {
 
 struct GltfDocument {
     std::string source; // for messages
-    // Every index in it has been checked against the array that it points into. What follows in members of
-    // its own is left out there.
-    tinygltf::Model model;
+    // Every type and every index that is read from it has been checked, and compressed data is as if it had
+    // been stored plainly. What has members of its own below is read from there.
+    nlohmann::json json;
     std::vector<GltfBuffer> buffers;
     std::vector<std::string> extensionsUsed;    // as the file lists them
     std::vector<std::string> ignoredExtensions; // listed or present on an object, and not supported
     std::vector<GltfImage> images;
     std::vector<GltfTexture> textures;
     std::vector<std::string> variants; // names
-    std::optional<int> variant;        // that is to be shown
+    std::optional<size_t> variant;     // that is to be shown
 
+    // The array of this name at the root: "nodes", "meshes", ...
+    [[nodiscard]] JsonView list(std::string_view name) const { return JsonView(json)[name]; }
+    [[nodiscard]] JsonView punctualLights() const {
+        return JsonView(json)["extensions"]["KHR_lights_punctual"]["lights"];
+    }
     [[nodiscard]] Error error(std::string_view text) const { return gltfError(source, text); }
 };
 

@@ -13,10 +13,10 @@ namespace lavalight {
 namespace {
 
 // Keys may be broken in an animation that nobody asked for: only what is plain counts.
-float lastKey(const GltfDocument& document, const tinygltf::Animation& animation) {
+float lastKey(const GltfDocument& document, JsonView animation) {
     float last = 0.0f;
-    for (const tinygltf::AnimationSampler& sampler : animation.samplers) {
-        const AccessorView times(document, sampler.input);
+    for (const JsonView sampler : animation["samplers"].elements()) {
+        const AccessorView times(document, sampler.count("input", 0));
         if (times.isScalar())
             last = std::max(last, times.scalarAt(times.count() - 1));
     }
@@ -26,13 +26,13 @@ float lastKey(const GltfDocument& document, const tinygltf::Animation& animation
 // The first, unless another is wanted.
 size_t findAnimation(const GltfDocument& document, const std::string& wanted) {
     const std::string source = printable(document.source);
-    if (document.model.animations.empty())
+    if (document.list("animations").size() == 0)
         throw UsageError(fmt::format("{} has no animation that a time could be asked of", source));
     if (wanted.empty())
         return 0;
     std::vector<std::string> names;
-    for (const tinygltf::Animation& animation : document.model.animations)
-        names.push_back(printable(animation.name));
+    for (const JsonView animation : document.list("animations").elements())
+        names.push_back(printable(animation.text("name")));
     return findNamed(names, {wanted, "--animation", "animation", source});
 }
 
@@ -54,8 +54,8 @@ void applyChannel(const Keyframes& keys, const std::string& path, double seconds
 
 std::vector<Animation> listAnimations(const GltfDocument& document) {
     std::vector<Animation> animations;
-    for (const tinygltf::Animation& animation : document.model.animations)
-        animations.push_back({printable(animation.name), lastKey(document, animation)});
+    for (const JsonView animation : document.list("animations").elements())
+        animations.push_back({printable(animation.text("name")), lastKey(document, animation)});
     return animations;
 }
 
@@ -63,20 +63,22 @@ Pose poseAt(const GltfDocument& document, const ImportOptions& options) {
     if (!options.seconds)
         return {};
     const size_t index = findAnimation(document, options.animation);
-    const tinygltf::Animation& animation = document.model.animations[index];
-    const std::string name = describe("animation", index, animation.name);
-    Pose pose(document.model.nodes.size());
+    const JsonView animation = document.list("animations")[index];
+    const JsonView samplers = animation["samplers"];
+    const std::string name = describe("animation", index, animation.text("name"));
+    Pose pose(document.list("nodes").size());
     KeyTimes times(document);
-    for (const tinygltf::AnimationChannel& channel : animation.channels) {
-        const std::string& path = channel.target_path;
-        if (path != "translation" && path != "rotation" && path != "scale" && path != "weights")
+    for (const JsonView channel : animation["channels"].elements()) {
+        const std::string& path = channel["target"].text("path");
+        const std::optional<size_t> node = channel["target"].index("node");
+        if (!node || (path != "translation" && path != "rotation" && path != "scale" && path != "weights"))
             continue; // of extensions, which have been named as ignored
-        const auto sampler = static_cast<size_t>(channel.sampler);
-        if (channel.sampler < 0 || sampler >= animation.samplers.size())
+        const size_t sampler = channel.count("sampler", 0);
+        if (sampler >= samplers.size())
             throw document.error(fmt::format("{} has {} samplers, but a channel uses number {}", name,
-                                             animation.samplers.size(), channel.sampler));
-        const Keyframes keys(document, animation.samplers[sampler], path, times);
-        applyChannel(keys, path, *options.seconds, pose.at(static_cast<size_t>(channel.target_node)));
+                                             samplers.size(), sampler));
+        const Keyframes keys(document, samplers[sampler], path, times);
+        applyChannel(keys, path, *options.seconds, pose.at(*node));
     }
     return pose;
 }

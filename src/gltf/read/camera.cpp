@@ -31,24 +31,28 @@ bool placeCamera(const glm::dmat4& toWorld, Camera& camera) {
 }
 
 // False for a field of view that no image has.
-bool setPerspective(const tinygltf::PerspectiveCamera& source, Camera& camera) {
+bool setPerspective(JsonView source, Camera& camera) {
+    const double yfov = source.number("yfov", 0.0);
+    const double aspect = source.number("aspectRatio", 0.0);
     camera.projection = Projection::perspective;
-    camera.verticalFov = static_cast<float>(source.yfov);
-    if (source.aspectRatio > 0.0)
-        camera.aspect = static_cast<float>(source.aspectRatio);
-    return source.yfov > 0.0 && source.yfov < glm::pi<double>();
+    camera.verticalFov = static_cast<float>(yfov);
+    if (aspect > 0.0)
+        camera.aspect = static_cast<float>(aspect);
+    return yfov > 0.0 && yfov < glm::pi<double>();
 }
 
-bool setOrthographic(const tinygltf::OrthographicCamera& source, Camera& camera) {
+bool setOrthographic(JsonView source, Camera& camera) {
+    const double xmag = source.number("xmag", 0.0);
+    const double ymag = source.number("ymag", 0.0);
     camera.projection = Projection::orthographic;
-    camera.halfHeight = static_cast<float>(std::abs(source.ymag));
-    if (source.xmag != 0.0 && source.ymag != 0.0)
-        camera.aspect = static_cast<float>(std::abs(source.xmag / source.ymag));
+    camera.halfHeight = static_cast<float>(std::abs(ymag));
+    if (xmag != 0.0 && ymag != 0.0)
+        camera.aspect = static_cast<float>(std::abs(xmag / ymag));
     return camera.halfHeight > 0.0f && std::isfinite(camera.halfHeight);
 }
 
 struct NumberedCamera {
-    int number = 0;
+    size_t number = 0;
     Camera camera;
 };
 
@@ -58,19 +62,22 @@ std::vector<Camera> readCameras(const GltfDocument& document, const std::vector<
                                 GltfNotes& notes) {
     std::vector<NumberedCamera> found;
     for (const PlacedNode& placed : nodes) {
-        const tinygltf::Node& node = document.model.nodes[static_cast<size_t>(placed.node)];
-        if (node.camera < 0)
+        const JsonView node = document.list("nodes")[placed.node];
+        const std::optional<size_t> number = node.index("camera");
+        if (!number)
             continue;
-        const tinygltf::Camera& source = document.model.cameras[static_cast<size_t>(node.camera)];
+        const JsonView source = document.list("cameras")[*number];
+        const std::string& ownName = source.text("name");
         Camera camera;
-        camera.name = printable(source.name.empty() ? node.name : source.name);
-        const bool projects = source.type == "orthographic" ? setOrthographic(source.orthographic, camera)
-                                                            : setPerspective(source.perspective, camera);
+        camera.name = printable(ownName.empty() ? node.text("name") : ownName);
+        const bool projects = source.text("type") == "orthographic"
+                                  ? setOrthographic(source["orthographic"], camera)
+                                  : setPerspective(source["perspective"], camera);
         if (projects && placeCamera(placed.toWorld, camera))
-            found.push_back({node.camera, camera});
+            found.push_back({*number, camera});
         else
             notes.addObject("cameras that cannot form an image were left out",
-                            describe("camera", static_cast<size_t>(node.camera), camera.name));
+                            describe("camera", *number, camera.name));
     }
     std::stable_sort(found.begin(), found.end(),
                      [](const NumberedCamera& a, const NumberedCamera& b) { return a.number < b.number; });

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include <glm/glm.hpp>
-#include <tiny_gltf.h>
 
+#include "gltf/file/json_view.h"
 #include "gltf/read/factors.h"
 #include "gltf/read/texture.h"
 #include "scene/scene.h"
@@ -15,11 +15,11 @@ namespace lavalight {
 // Everything it is made with must outlive it.
 class ExtensionReader {
   public:
-    ExtensionReader(const tinygltf::Value& extension, const std::vector<GltfTexture>& textures,
-                    Material& material, FactorReader& factors)
+    ExtensionReader(JsonView extension, const std::vector<GltfTexture>& textures, Material& material,
+                    FactorReader& factors)
         : extension_(extension), textures_(textures), material_(material), factors_(factors) {}
 
-    [[nodiscard]] bool has(const char* member) const { return extension_.Has(member); }
+    [[nodiscard]] bool has(const char* member) const { return extension_.has(member); }
 
     // Clamped to [lower, upper] and noted where that changes it; `otherwise` where the extension lacks it.
     [[nodiscard]] float number(const char* member, double otherwise, double lower = 0.0, double upper = 1.0);
@@ -34,7 +34,7 @@ class ExtensionReader {
     [[nodiscard]] Material& material() { return material_; }
 
   private:
-    const tinygltf::Value& extension_;
+    JsonView extension_;
     const std::vector<GltfTexture>& textures_;
     Material& material_;
     FactorReader& factors_;

@@ -13,10 +13,10 @@ float FactorReader::clamped(double value, double lower, double upper, const char
     return static_cast<float>(std::clamp(value, lower, upper));
 }
 
-glm::vec3 FactorReader::clamped(const std::vector<double>& values, double upper, const char* factor) {
+glm::vec3 FactorReader::clamped(const glm::dvec3& values, double upper, const char* factor) {
     glm::vec3 color;
     for (int i = 0; i < 3; ++i)
-        color[i] = clamped(values[static_cast<size_t>(i)], 0.0, upper, factor);
+        color[i] = clamped(values[i], 0.0, upper, factor);
     return color;
 }
 

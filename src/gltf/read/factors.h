@@ -2,7 +2,6 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include <glm/glm.hpp>
 
@@ -21,8 +20,8 @@ class FactorReader {
 
     [[nodiscard]] float clamped(double value, double lower, double upper, const char* factor);
 
-    // Three channels from 0 to `upper`; further elements of `values` are not looked at.
-    [[nodiscard]] glm::vec3 clamped(const std::vector<double>& values, double upper, const char* factor);
+    // Each channel from 0 to `upper`.
+    [[nodiscard]] glm::vec3 clamped(const glm::dvec3& values, double upper, const char* factor);
 
   private:
     const std::string& name_;

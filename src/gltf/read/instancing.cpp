@@ -8,19 +8,13 @@ namespace lavalight {
 namespace {
 
 // The accessor of one of the extension's attributes; the schema check has seen to the index.
-std::optional<int> accessorOf(const tinygltf::Node& node, const char* attribute) {
-    const auto extension = node.extensions.find("EXT_mesh_gpu_instancing");
-    if (extension == node.extensions.end() || !extension->second.Has("attributes"))
-        return std::nullopt;
-    const tinygltf::Value& attributes = extension->second.Get("attributes");
-    if (!attributes.Has(attribute))
-        return std::nullopt;
-    return attributes.Get(attribute).GetNumberAsInt();
+std::optional<size_t> accessorOf(JsonView node, const char* attribute) {
+    return node["extensions"]["EXT_mesh_gpu_instancing"]["attributes"].index(attribute);
 }
 
-void readAttribute(const GltfDocument& document, const tinygltf::Node& node, const char* attribute,
+void readAttribute(const GltfDocument& document, JsonView node, const char* attribute,
                    std::optional<AccessorView>& view) {
-    const std::optional<int> accessor = accessorOf(node, attribute);
+    const std::optional<size_t> accessor = accessorOf(node, attribute);
     if (!accessor)
         return;
     view.emplace(document, *accessor);
@@ -36,15 +30,15 @@ void readAttribute(const GltfDocument& document, const tinygltf::Node& node, con
 
 } // namespace
 
-size_t instanceCount(const GltfDocument& document, const tinygltf::Node& node) {
+size_t instanceCount(const GltfDocument& document, JsonView node) {
     for (const char* attribute : {"TRANSLATION", "ROTATION", "SCALE"}) {
-        if (const std::optional<int> accessor = accessorOf(node, attribute))
-            return document.model.accessors.at(static_cast<size_t>(*accessor)).count;
+        if (const std::optional<size_t> accessor = accessorOf(node, attribute))
+            return document.list("accessors")[*accessor].count("count", 0);
     }
     return 1;
 }
 
-InstanceReader::InstanceReader(const GltfDocument& document, const tinygltf::Node& node)
+InstanceReader::InstanceReader(const GltfDocument& document, JsonView node)
     : count_(instanceCount(document, node)) {
     readAttribute(document, node, "TRANSLATION", translations_);
     readAttribute(document, node, "ROTATION", rotations_);

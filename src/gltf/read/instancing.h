@@ -10,14 +10,14 @@
 namespace lavalight {
 
 // How often `node` shows its mesh: 1 without the extension.
-[[nodiscard]] size_t instanceCount(const GltfDocument& document, const tinygltf::Node& node);
+[[nodiscard]] size_t instanceCount(const GltfDocument& document, JsonView node);
 
 // The instances' transforms, read one at a time: their number is only bounded by the file.
 class InstanceReader {
   public:
     // Throws Error, naming the node's accessors, for attributes of another type and of unequal counts. The
     // document must outlive it.
-    InstanceReader(const GltfDocument& document, const tinygltf::Node& node);
+    InstanceReader(const GltfDocument& document, JsonView node);
 
     [[nodiscard]] size_t count() const { return count_; }
     // From the space of an instance to that of the node, i < count().

@@ -26,7 +26,7 @@ glm::dvec4 slerp(const glm::dvec4& a, const glm::dvec4& b, double t) {
 
 } // namespace
 
-const std::vector<float>& KeyTimes::of(int accessor) {
+const std::vector<float>& KeyTimes::of(size_t accessor) {
     const auto known = times_.find(accessor);
     if (known != times_.end())
         return known->second;
@@ -44,17 +44,17 @@ const std::vector<float>& KeyTimes::of(int accessor) {
     return times_.emplace(accessor, std::move(times)).first->second;
 }
 
-Keyframes::Keyframes(const GltfDocument& document, const tinygltf::AnimationSampler& sampler,
-                     const std::string& path, KeyTimes& times)
-    : output_(document, sampler.output), path_(path) {
-    if (sampler.interpolation == "STEP")
+Keyframes::Keyframes(const GltfDocument& document, JsonView sampler, const std::string& path, KeyTimes& times)
+    : output_(document, sampler.count("output", 0)), path_(path) {
+    const std::string& interpolation = sampler.text("interpolation");
+    if (interpolation == "STEP")
         interpolation_ = Interpolation::step;
-    else if (sampler.interpolation == "CUBICSPLINE")
+    else if (interpolation == "CUBICSPLINE")
         interpolation_ = Interpolation::cubic;
-    else if (!sampler.interpolation.empty() && sampler.interpolation != "LINEAR")
-        throw document.error(fmt::format("an animation's interpolation is \"{}\", which glTF does not know",
-                                         sampler.interpolation));
-    times_ = times.of(sampler.input);
+    else if (!interpolation.empty() && interpolation != "LINEAR")
+        throw document.error(
+            fmt::format("an animation's interpolation is \"{}\", which glTF does not know", interpolation));
+    times_ = times.of(sampler.count("input", 0));
     checkValues(document);
 }
 

@@ -19,11 +19,11 @@ class KeyTimes {
     explicit KeyTimes(const GltfDocument& document) : document_(document) {}
 
     // Seconds, ascending, not empty. Throws Error naming the accessor for times that do not ascend.
-    [[nodiscard]] const std::vector<float>& of(int accessor);
+    [[nodiscard]] const std::vector<float>& of(size_t accessor);
 
   private:
     const GltfDocument& document_;
-    std::map<int, std::vector<float>> times_; // by accessor
+    std::map<size_t, std::vector<float>> times_; // by accessor
 };
 
 // The keys of one channel. The document and the times must outlive it.
@@ -31,8 +31,7 @@ class Keyframes {
   public:
     // `path` is the channel's: translation, rotation, scale or weights. Throws Error naming the accessor
     // for times that do not ascend, and for values whose type or number does not fit path and times.
-    Keyframes(const GltfDocument& document, const tinygltf::AnimationSampler& sampler,
-              const std::string& path, KeyTimes& times);
+    Keyframes(const GltfDocument& document, JsonView sampler, const std::string& path, KeyTimes& times);
 
     // Values of one key: 1, or the number of weights.
     [[nodiscard]] size_t lanes() const { return lanes_; }

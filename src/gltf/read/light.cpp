@@ -24,12 +24,6 @@ std::optional<PunctualKind> kindOf(const std::string& type) {
     return std::nullopt;
 }
 
-// The number of the node's light, or -1.
-int lightOf(const tinygltf::Node& node) {
-    const auto extension = node.extensions.find("KHR_lights_punctual");
-    return extension == node.extensions.end() ? -1 : extension->second.Get("light").GetNumberAsInt();
-}
-
 // The node's scale leaves the light as it is. False where the node puts the light out of reach or squeezes
 // its -z axis to nothing, and the light needs what is missing.
 bool placeLight(const glm::dmat4& toWorld, PunctualLight& light) {
@@ -46,21 +40,20 @@ bool placeLight(const glm::dmat4& toWorld, PunctualLight& light) {
            (hasDirection || light.kind == PunctualKind::point);
 }
 
-void readCone(const tinygltf::SpotLight& spot, const std::string& name, PunctualLight& light,
-              GltfNotes& notes) {
+void readCone(JsonView spot, const std::string& name, PunctualLight& light, GltfNotes& notes) {
     constexpr double kQuarterTurn = std::numbers::pi / 2.0;
-    light.outerConeAngle =
-        FactorReader(name, notes).clamped(spot.outerConeAngle, 0.0, kQuarterTurn, "outerConeAngle");
-    const double outer = std::clamp(spot.outerConeAngle, 0.0, kQuarterTurn);
-    if (spot.innerConeAngle < 0.0 || spot.innerConeAngle > outer)
+    const double innerAngle = spot.number("innerConeAngle", 0.0);
+    const double outerAngle = spot.number("outerConeAngle", std::numbers::pi / 4.0);
+    light.outerConeAngle = FactorReader(name, notes).clamped(outerAngle, 0.0, kQuarterTurn, "outerConeAngle");
+    const double outer = std::clamp(outerAngle, 0.0, kQuarterTurn);
+    if (innerAngle < 0.0 || innerAngle > outer)
         notes.addObject("innerConeAngle was clamped to 0 .. outerConeAngle", name);
-    light.innerConeAngle = static_cast<float>(std::clamp(spot.innerConeAngle, 0.0, outer));
+    light.innerConeAngle = static_cast<float>(std::clamp(innerAngle, 0.0, outer));
 }
 
 // What of a light does not depend on its node; nothing for an unknown type.
-std::optional<PunctualLight> readLight(const tinygltf::Light& source, const std::string& name,
-                                       GltfNotes& notes) {
-    const std::optional<PunctualKind> kind = kindOf(source.type);
+std::optional<PunctualLight> readLight(JsonView source, const std::string& name, GltfNotes& notes) {
+    const std::optional<PunctualKind> kind = kindOf(source.text("type"));
     if (!kind) {
         notes.addObject("lights of an unknown type were left out", name);
         return std::nullopt;
@@ -68,11 +61,12 @@ std::optional<PunctualLight> readLight(const tinygltf::Light& source, const std:
     FactorReader factors(name, notes);
     PunctualLight light;
     light.kind = *kind;
-    light.intensity = glm::vec3(factors.clamped(source.intensity, 0.0, kLargestFactor, "intensity"));
-    if (!source.color.empty())
-        light.intensity *= factors.clamped(source.color, 1.0, "color");
+    light.intensity =
+        glm::vec3(factors.clamped(source.number("intensity", 1.0), 0.0, kLargestFactor, "intensity"));
+    if (source.has("color"))
+        light.intensity *= factors.clamped(source.vector<3>("color", glm::dvec3(1.0)), 1.0, "color");
     if (light.kind == PunctualKind::spot)
-        readCone(source.spot, name, light, notes);
+        readCone(source["spot"], name, light, notes);
     return light;
 }
 
@@ -82,13 +76,13 @@ std::vector<PunctualLight> readPunctualLights(const GltfDocument& document,
                                               const std::vector<PlacedNode>& nodes, GltfNotes& notes) {
     std::vector<PunctualLight> lights;
     for (const PlacedNode& placed : nodes) {
-        const tinygltf::Node& node = document.model.nodes[static_cast<size_t>(placed.node)];
-        const int number = lightOf(node);
-        if (number < 0 || !placed.isVisible)
+        const JsonView node = document.list("nodes")[placed.node];
+        const std::optional<size_t> number = node["extensions"]["KHR_lights_punctual"].index("light");
+        if (!number || !placed.isVisible)
             continue;
-        const tinygltf::Light& source = document.model.lights[static_cast<size_t>(number)];
-        const std::string& ownName = source.name.empty() ? node.name : source.name;
-        const std::string name = describe("light", static_cast<size_t>(number), ownName);
+        const JsonView source = document.punctualLights()[*number];
+        const std::string& ownName = source.text("name").empty() ? node.text("name") : source.text("name");
+        const std::string name = describe("light", *number, ownName);
         std::optional<PunctualLight> light = readLight(source, name, notes);
         if (!light)
             continue;

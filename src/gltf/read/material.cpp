@@ -1,7 +1,6 @@
 // Metallic-roughness materials (glTF 2.0 specification, section 3.9) and what their extensions add.
 #include "gltf/read/material.h"
 
-#include <algorithm>
 #include <string>
 
 #include "gltf/read/extension_reader.h"
@@ -15,46 +14,43 @@ void setTexture(Material& material, TextureSlot slot, std::optional<Texture> tex
     material.textures[static_cast<size_t>(slot)] = std::move(texture);
 }
 
-void readBase(const tinygltf::Material& source, const std::vector<GltfTexture>& textures, Material& material,
+void readBase(JsonView source, const std::vector<GltfTexture>& textures, Material& material,
               FactorReader& factors) {
-    const tinygltf::PbrMetallicRoughness& pbr = source.pbrMetallicRoughness;
-    material.baseColor = factors.clamped(pbr.baseColorFactor, 1.0, "baseColorFactor");
-    material.alpha = factors.clamped(pbr.baseColorFactor[3], 0.0, 1.0, "baseColorFactor");
-    material.metallic = factors.clamped(pbr.metallicFactor, 0.0, 1.0, "metallicFactor");
-    material.roughness = factors.clamped(pbr.roughnessFactor, 0.0, 1.0, "roughnessFactor");
-    setTexture(material, TextureSlot::baseColor,
-               makeTexture(textures, GltfTextureInfo(pbr.baseColorTexture), true));
+    const JsonView pbr = source["pbrMetallicRoughness"];
+    const glm::dvec4 baseColor = pbr.vector<4>("baseColorFactor", glm::dvec4(1.0));
+    material.baseColor = factors.clamped(glm::dvec3(baseColor), 1.0, "baseColorFactor");
+    material.alpha = factors.clamped(baseColor.w, 0.0, 1.0, "baseColorFactor");
+    material.metallic = factors.clamped(pbr.number("metallicFactor", 1.0), 0.0, 1.0, "metallicFactor");
+    material.roughness = factors.clamped(pbr.number("roughnessFactor", 1.0), 0.0, 1.0, "roughnessFactor");
+    setTexture(material, TextureSlot::baseColor, makeTexture(textures, pbr["baseColorTexture"], true));
     setTexture(material, TextureSlot::metallicRoughness,
-               makeTexture(textures, GltfTextureInfo(pbr.metallicRoughnessTexture), false));
+               makeTexture(textures, pbr["metallicRoughnessTexture"], false));
 }
 
-void readNormals(const tinygltf::Material& source, const std::vector<GltfTexture>& textures,
-                 Material& material) {
-    setTexture(material, TextureSlot::normal,
-               makeTexture(textures, GltfTextureInfo(source.normalTexture), false));
-    material.normalScale = static_cast<float>(source.normalTexture.scale);
+void readNormals(JsonView source, const std::vector<GltfTexture>& textures, Material& material) {
+    setTexture(material, TextureSlot::normal, makeTexture(textures, source["normalTexture"], false));
+    material.normalScale = static_cast<float>(source["normalTexture"].number("scale", 1.0));
 }
 
-void readEmission(const tinygltf::Material& source, const std::vector<GltfTexture>& textures,
-                  Material& material, FactorReader& factors) {
-    double strength = 1.0;
-    const auto extension = source.extensions.find("KHR_materials_emissive_strength");
-    if (extension != source.extensions.end() && extension->second.Has("emissiveStrength"))
-        strength = extension->second.Get("emissiveStrength").GetNumberAsDouble();
-    std::vector<double> emission;
-    for (const double channel : source.emissiveFactor)
-        emission.push_back(channel * strength);
-    material.emission = factors.clamped(emission, kLargestFactor, "emission");
+glm::dvec3 emissiveFactor(JsonView source) {
+    return source.vector<3>("emissiveFactor", glm::dvec3(0.0));
+}
+
+void readEmission(JsonView source, const std::vector<GltfTexture>& textures, Material& material,
+                  FactorReader& factors) {
+    const double strength =
+        source["extensions"]["KHR_materials_emissive_strength"].number("emissiveStrength", 1.0);
+    material.emission = factors.clamped(strength * emissiveFactor(source), kLargestFactor, "emission");
     if (material.emission != glm::vec3(0.0f))
-        setTexture(material, TextureSlot::emission,
-                   makeTexture(textures, GltfTextureInfo(source.emissiveTexture), true));
+        setTexture(material, TextureSlot::emission, makeTexture(textures, source["emissiveTexture"], true));
 }
 
-void readAlpha(const tinygltf::Material& source, Material& material) {
-    material.alphaMode = source.alphaMode == "MASK"    ? AlphaMode::mask
-                         : source.alphaMode == "BLEND" ? AlphaMode::blend
-                                                       : AlphaMode::opaque;
-    material.alphaCutoff = static_cast<float>(source.alphaCutoff);
+void readAlpha(JsonView source, Material& material) {
+    const std::string& mode = source.text("alphaMode");
+    material.alphaMode = mode == "MASK"    ? AlphaMode::mask
+                         : mode == "BLEND" ? AlphaMode::blend
+                                           : AlphaMode::opaque;
+    material.alphaCutoff = static_cast<float>(source.number("alphaCutoff", 0.5));
 }
 
 // Of an unlit surface only the base colour counts.
@@ -65,24 +61,24 @@ void leaveUnlit(Material& material) {
             material.textures[slot].reset();
 }
 
-Material readMaterial(const tinygltf::Material& source, size_t index, const GltfDocument& document,
-                      GltfNotes& notes) {
-    const std::string name = describe("material", index, source.name);
+Material readMaterial(JsonView source, size_t index, const GltfDocument& document, GltfNotes& notes) {
+    const std::string name = describe("material", index, source.text("name"));
     FactorReader factors(name, notes);
     Material material;
-    material.name = printable(source.name);
-    material.doubleSided = source.doubleSided;
+    material.name = printable(source.text("name"));
+    material.doubleSided = source.flag("doubleSided", false);
     const std::vector<GltfTexture>& textures = document.textures;
     readBase(source, textures, material, factors);
     readAlpha(source, material);
-    for (const auto& [extension, value] : source.extensions) {
+    for (const auto& [extension, value] : source["extensions"].members()) {
+        if (!value.is_object())
+            continue;
         ExtensionReader reader(value, textures, material, factors);
         readMaterialExtension(extension, reader);
     }
     readNormals(source, textures, material);
     readEmission(source, textures, material, factors);
-    if (std::any_of(source.emissiveFactor.begin(), source.emissiveFactor.end(),
-                    [](double channel) { return channel > 1.0; }))
+    if (glm::any(glm::greaterThan(emissiveFactor(source), glm::dvec3(1.0))))
         notes.addObject("emissiveFactor above 1 was taken as it is", name);
     if (material.isUnlit)
         leaveUnlit(material);
@@ -93,7 +89,7 @@ Material readMaterial(const tinygltf::Material& source, size_t index, const Gltf
 
 std::vector<Material> readMaterials(const GltfDocument& document, GltfNotes& notes) {
     std::vector<Material> materials;
-    for (const tinygltf::Material& source : document.model.materials)
+    for (const JsonView source : document.list("materials").elements())
         materials.push_back(readMaterial(source, materials.size(), document, notes));
     Material fallback;
     fallback.name = "default";

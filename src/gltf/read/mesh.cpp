@@ -25,11 +25,11 @@ namespace {
 using MeshInstances = std::vector<std::vector<const PlacedNode*>>; // by glTF mesh
 
 MeshInstances groupByMesh(const GltfDocument& document, const std::vector<PlacedNode>& nodes) {
-    MeshInstances instances(document.model.meshes.size());
+    MeshInstances instances(document.list("meshes").size());
     for (const PlacedNode& placed : nodes) {
-        const int mesh = document.model.nodes[static_cast<size_t>(placed.node)].mesh;
-        if (mesh >= 0 && placed.isVisible)
-            instances[static_cast<size_t>(mesh)].push_back(&placed);
+        const std::optional<size_t> mesh = document.list("nodes")[placed.node].index("mesh");
+        if (mesh && placed.isVisible)
+            instances[*mesh].push_back(&placed);
     }
     return instances;
 }
@@ -48,21 +48,21 @@ struct Extent {
 };
 
 // Vertices that triangles use, at most.
-double usedVertices(const GltfDocument& document, const tinygltf::Primitive& primitive) {
+double usedVertices(const GltfDocument& document, JsonView primitive) {
     const auto triangles = static_cast<double>(triangleCount(primitive, document));
     if (triangles == 0.0)
         return 0.0;
-    const int positions = primitive.attributes.at("POSITION");
-    const size_t vertices = document.model.accessors.at(static_cast<size_t>(positions)).count;
+    const size_t positions = primitive["attributes"].count("POSITION", 0);
+    const size_t vertices = document.list("accessors")[positions].count("count", 0);
     return std::min(3.0 * triangles, static_cast<double>(vertices));
 }
 
-Extent extentOf(const GltfDocument& document, const tinygltf::Primitive& primitive) {
+Extent extentOf(const GltfDocument& document, JsonView primitive) {
     const auto triangles = static_cast<double>(triangleCount(primitive, document));
     if (triangles == 0.0)
         return {};
     size_t vertexBytes = sizeof(glm::vec3) + sizeof(glm::vec4); // a position, and a tangent that is generated
-    for (const auto& [attribute, accessor] : primitive.attributes) {
+    for (const auto& [attribute, accessor] : primitive["attributes"].members()) {
         vertexBytes += attribute == "NORMAL" ? sizeof(glm::vec3) : 0;
         vertexBytes += attribute == "COLOR_0" ? sizeof(glm::vec4) : 0;
         vertexBytes += attribute.starts_with("TEXCOORD_") ? sizeof(glm::vec2) : 0;
@@ -78,10 +78,10 @@ void requireFitting(const GltfDocument& document, const MeshInstances& instances
     Extent total;
     for (size_t i = 0; i < instances.size(); ++i) {
         Extent ofMesh;
-        for (const tinygltf::Primitive& primitive : document.model.meshes[i].primitives)
+        for (const JsonView primitive : document.list("meshes")[i]["primitives"].elements())
             ofMesh += extentOf(document, primitive);
         for (const PlacedNode* placed : instances[i]) {
-            const tinygltf::Node& node = document.model.nodes[static_cast<size_t>(placed->node)];
+            const JsonView node = document.list("nodes")[placed->node];
             total += ofMesh.times(static_cast<double>(instanceCount(document, node)));
         }
     }
@@ -99,12 +99,13 @@ void requireFewMorphs(const GltfDocument& document, const MeshInstances& instanc
     constexpr double kMost = 1e10; // 4 ns each: 40 seconds
     double steps = 0.0;
     for (size_t i = 0; i < instances.size(); ++i) {
-        for (const tinygltf::Primitive& primitive : document.model.meshes[i].primitives) {
-            if (primitive.targets.empty())
+        for (const JsonView primitive : document.list("meshes")[i]["primitives"].elements()) {
+            const size_t targets = primitive["targets"].size();
+            if (targets == 0)
                 continue;
             const double vertices = usedVertices(document, primitive);
             for (const PlacedNode* placed : instances[i]) {
-                steps += morphSteps(primitive, vertices, morphWeights(document, placed->node, pose));
+                steps += morphSteps(primitive, vertices, morphWeights(document, placed->node, pose, targets));
                 if (steps > kMost)
                     throw document.error(
                         fmt::format("its morph targets move vertices more than {:.0e} times: "
@@ -115,29 +116,28 @@ void requireFewMorphs(const GltfDocument& document, const MeshInstances& instanc
     }
 }
 
-void noteUnread(const GltfDocument& document, const tinygltf::Primitive& primitive, const std::string& name,
-                GltfNotes& notes) {
-    const int indices = primitive.indices;
-    if (primitive.mode == TINYGLTF_MODE_TRIANGLES && indices >= 0 &&
-        document.model.accessors[static_cast<size_t>(indices)].count % 3 != 0)
+void noteUnread(const GltfDocument& document, JsonView primitive, const std::string& name, GltfNotes& notes) {
+    const std::optional<size_t> indices = primitive.index("indices");
+    if (modeOf(primitive) == kTriangleList && indices &&
+        document.list("accessors")[*indices].count("count", 0) % 3 != 0)
         notes.addObject("the last triangle is incomplete and was left out", name);
 }
 
 // A primitive in its own space, with the numbers of its vertices in the file.
 struct LocalMesh {
-    const tinygltf::Primitive& source;
+    JsonView source;
     Mesh mesh; // empty if it shows no triangles
     std::vector<uint32_t> vertices;
 };
 
-LocalMesh readPrimitive(const GltfDocument& document, const tinygltf::Primitive& primitive,
-                        const std::string& name, GltfNotes& notes) {
+LocalMesh readPrimitive(const GltfDocument& document, JsonView primitive, const std::string& name,
+                        GltfNotes& notes) {
     LocalMesh local{primitive, {}, {}};
     if (!hasTriangles(primitive)) {
         notes.addObject("points and lines are not rendered", name);
         return local;
     }
-    if (!primitive.attributes.contains("POSITION")) {
+    if (!primitive["attributes"].has("POSITION")) {
         notes.addObject("a primitive without positions shows nothing", name);
         return local;
     }
@@ -173,18 +173,18 @@ class MeshReader {
 
     // Everything that nodes show of glTF's mesh `index`.
     void read(size_t index, const std::vector<const PlacedNode*>& nodes) {
-        const tinygltf::Mesh& source = document_.model.meshes[index];
-        const std::string name = describe("mesh", index, source.name);
-        for (const tinygltf::Primitive& primitive : source.primitives) {
+        const JsonView source = document_.list("meshes")[index];
+        const std::string& ownName = source.text("name");
+        const std::string name = describe("mesh", index, ownName);
+        for (const JsonView primitive : source["primitives"].elements()) {
             LocalMesh local = readPrimitive(document_, primitive, name, notes_);
-            const int material = materialOf(primitive, document_.variant);
-            local.mesh.material =
-                material < 0 ? static_cast<uint32_t>(materials_.size() - 1) : static_cast<uint32_t>(material);
+            const std::optional<size_t> material = materialOf(primitive, document_.variant);
+            local.mesh.material = static_cast<uint32_t>(material.value_or(materials_.size() - 1));
             if (local.mesh.triangles.empty())
                 continue;
             for (const PlacedNode* placed : nodes) {
-                const tinygltf::Node& node = document_.model.nodes[static_cast<size_t>(placed->node)];
-                local.mesh.name = printable(source.name.empty() ? node.name : source.name);
+                const JsonView node = document_.list("nodes")[placed->node];
+                local.mesh.name = printable(ownName.empty() ? node.text("name") : ownName);
                 show(local, *placed, node);
             }
         }
@@ -197,32 +197,34 @@ class MeshReader {
 
   private:
     // What one node shows of a primitive: morphed, then skinned or placed.
-    void show(const LocalMesh& local, const PlacedNode& placed, const tinygltf::Node& node) {
-        const bool isSkinned = node.skin >= 0 && hasJoints(local.source);
-        if (node.skin >= 0 && !isSkinned)
+    void show(const LocalMesh& local, const PlacedNode& placed, JsonView node) {
+        const std::optional<size_t> skin = node.index("skin");
+        const size_t targets = local.source["targets"].size();
+        const bool isSkinned = skin && hasJoints(local.source);
+        if (skin && !isSkinned)
             notes_.addObject("a skin moves no mesh without JOINTS_0 and WEIGHTS_0",
-                             describe("node", static_cast<size_t>(placed.node), node.name));
-        if (local.source.targets.empty() && !isSkinned)
+                             describe("node", placed.node, node.text("name")));
+        if (targets == 0 && !isSkinned)
             return placeInstances(local.mesh, placed, node);
         Mesh mesh = local.mesh;
         applyMorphTargets(document_, local.source, local.vertices,
-                          morphWeights(document_, placed.node, tree_.pose), mesh);
+                          morphWeights(document_, placed.node, tree_.pose, targets), mesh);
         if (!isSkinned)
             return placeInstances(mesh, placed, node);
-        applySkin(document_, local.source, local.vertices, jointsOf(node.skin), mesh);
+        applySkin(document_, local.source, local.vertices, jointsOf(*skin), mesh);
         cleanMesh(mesh, counts_);
         keep(std::move(mesh));
     }
 
     // Of each skin once: thousands of nodes may share one.
-    const std::vector<glm::dmat4>& jointsOf(int skin) {
+    const std::vector<glm::dmat4>& jointsOf(size_t skin) {
         const auto known = joints_.find(skin);
         if (known != joints_.end())
             return known->second;
         return joints_.emplace(skin, jointTransforms(document_, skin, tree_.toWorld)).first->second;
     }
 
-    void placeInstances(const Mesh& local, const PlacedNode& placed, const tinygltf::Node& node) {
+    void placeInstances(const Mesh& local, const PlacedNode& placed, JsonView node) {
         const InstanceReader instances(document_, node);
         for (size_t i = 0; i < instances.count(); ++i)
             keep(bakeMesh(local, placed.toWorld * instances.transform(i), counts_));
@@ -242,7 +244,7 @@ class MeshReader {
     const std::vector<Material>& materials_;
     GltfNotes& notes_;
     BakeCounts counts_;
-    std::map<int, std::vector<glm::dmat4>> joints_; // by skin
+    std::map<size_t, std::vector<glm::dmat4>> joints_; // by skin
     std::vector<Mesh> meshes_;
 };
 

@@ -2,6 +2,8 @@
 #include "gltf/read/morph.h"
 
 #include <algorithm>
+#include <optional>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -9,8 +11,6 @@
 
 namespace lavalight {
 namespace {
-
-using Target = std::map<std::string, int>; // accessors by attribute
 
 // Adds one attribute of one target; tangents have four components, of which a target moves three.
 template <class Vector, class Delta>
@@ -20,12 +20,12 @@ class Morph {
           bool (AccessorView::*isRight)() const, Delta (AccessorView::*at)(size_t) const)
         : document_(document), vertices_(vertices), isRight_(isRight), at_(at) {}
 
-    void add(const Target& target, const std::string& attribute, double weight,
+    void add(JsonView target, const std::string& attribute, double weight,
              std::vector<Vector>& values) const {
-        const auto found = target.find(attribute);
-        if (found == target.end() || values.empty())
+        const std::optional<size_t> accessor = target.index(attribute);
+        if (!accessor || values.empty())
             return;
-        const AccessorView view(document_, found->second);
+        const AccessorView view(document_, *accessor);
         if (!(view.*isRight_)())
             throw document_.error(fmt::format("{} is used as {} of a morph target and must be a VEC{}",
                                               view.name(), attribute, Delta::length()));
@@ -48,12 +48,12 @@ class Morph {
 };
 
 // Colours are clamped after morphing.
-void addColors(const GltfDocument& document, const std::vector<uint32_t>& vertices, const Target& target,
+void addColors(const GltfDocument& document, const std::vector<uint32_t>& vertices, JsonView target,
                double weight, std::vector<glm::vec4>& colors) {
-    const auto found = target.find("COLOR_0");
-    if (found == target.end())
+    const std::optional<size_t> accessor = target.index("COLOR_0");
+    if (!accessor)
         return;
-    if (AccessorView(document, found->second).isVec3())
+    if (AccessorView(document, *accessor).isVec3())
         Morph<glm::vec4, glm::vec3>(document, vertices, &AccessorView::isVec3, &AccessorView::vec3At)
             .add(target, "COLOR_0", weight, colors);
     else
@@ -65,35 +65,42 @@ void addColors(const GltfDocument& document, const std::vector<uint32_t>& vertic
 
 } // namespace
 
-const std::vector<double>& morphWeights(const GltfDocument& document, int node, const Pose& pose) {
-    const auto index = static_cast<size_t>(node);
-    const tinygltf::Node& source = document.model.nodes.at(index);
-    if (index < pose.size() && !pose[index].weights.empty())
-        return pose[index].weights;
-    if (!source.weights.empty())
-        return source.weights;
-    return document.model.meshes.at(static_cast<size_t>(source.mesh)).weights;
+std::vector<double> morphWeights(const GltfDocument& document, size_t node, const Pose& pose, size_t most) {
+    std::vector<double> weights;
+    if (node < pose.size() && !pose[node].weights.empty()) {
+        weights = pose[node].weights;
+        weights.resize(std::min(weights.size(), most));
+        return weights;
+    }
+    const JsonView source = document.list("nodes")[node];
+    const bool hasOwn = source["weights"].size() > 0;
+    const JsonView stored = (hasOwn ? source : document.list("meshes")[source.count("mesh", 0)])["weights"];
+    for (size_t i = 0; i < std::min(stored.size(), most); ++i)
+        weights.push_back(stored[i].asNumber(0.0));
+    return weights;
 }
 
-double morphSteps(const tinygltf::Primitive& primitive, double vertices, const std::vector<double>& weights) {
-    const size_t count = std::min(primitive.targets.size(), weights.size());
+double morphSteps(JsonView primitive, double vertices, const std::vector<double>& weights) {
+    const JsonView targets = primitive["targets"];
+    const size_t count = std::min(targets.size(), weights.size());
     auto steps = static_cast<double>(count);
     for (size_t i = 0; i < count; ++i) {
         if (weights[i] != 0.0)
-            steps += vertices * static_cast<double>(primitive.targets[i].size());
+            steps += vertices * static_cast<double>(targets[i].members().size());
     }
     return steps;
 }
 
-void applyMorphTargets(const GltfDocument& document, const tinygltf::Primitive& primitive,
+void applyMorphTargets(const GltfDocument& document, JsonView primitive,
                        const std::vector<uint32_t>& vertices, const std::vector<double>& weights,
                        Mesh& mesh) {
     const Morph<glm::vec3, glm::vec3> vec3s(document, vertices, &AccessorView::isVec3, &AccessorView::vec3At);
     const Morph<glm::vec4, glm::vec3> tangents(document, vertices, &AccessorView::isVec3,
                                                &AccessorView::vec3At);
     const Morph<glm::vec2, glm::vec2> vec2s(document, vertices, &AccessorView::isVec2, &AccessorView::vec2At);
-    for (size_t i = 0; i < std::min(primitive.targets.size(), weights.size()); ++i) {
-        const Target& target = primitive.targets[i];
+    const JsonView targets = primitive["targets"];
+    for (size_t i = 0; i < std::min(targets.size(), weights.size()); ++i) {
+        const JsonView target = targets[i];
         const double weight = weights[i];
         if (weight == 0.0)
             continue;

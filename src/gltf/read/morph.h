@@ -10,19 +10,18 @@
 
 namespace lavalight {
 
-// The weights of a node's mesh: those of the pose, else the node's own, else the mesh's. May be empty. Of the
-// document or the pose.
-[[nodiscard]] const std::vector<double>& morphWeights(const GltfDocument& document, int node,
-                                                      const Pose& pose);
+// The weights of a node's mesh for the first `most` targets: those of the pose, else the node's own, else the
+// mesh's. May be fewer, or empty.
+[[nodiscard]] std::vector<double> morphWeights(const GltfDocument& document, size_t node, const Pose& pose,
+                                               size_t most);
 
 // What applyMorphTargets would do for a primitive of so many vertices: values added, and targets passed by.
-[[nodiscard]] double morphSteps(const tinygltf::Primitive& primitive, double vertices,
-                                const std::vector<double>& weights);
+[[nodiscard]] double morphSteps(JsonView primitive, double vertices, const std::vector<double>& weights);
 
 // Adds the primitive's targets by their weights to `mesh`, whose vertices are those of these numbers.
 // Attributes that the mesh lacks stay away, as do targets without a weight. Throws Error for targets of
 // another type or number than the vertices.
-void applyMorphTargets(const GltfDocument& document, const tinygltf::Primitive& primitive,
+void applyMorphTargets(const GltfDocument& document, JsonView primitive,
                        const std::vector<uint32_t>& vertices, const std::vector<double>& weights, Mesh& mesh);
 
 } // namespace lavalight

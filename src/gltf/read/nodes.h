@@ -12,7 +12,7 @@ namespace lavalight {
 
 // A node of the shown scene with its transform to world space.
 struct PlacedNode {
-    int node = -1;
+    size_t node = 0;
     glm::dmat4 toWorld{1.0}; // double: deep hierarchies multiply many
     bool isVisible = true;   // its mesh and its light; cameras are always there
 };

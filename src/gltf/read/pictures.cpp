@@ -107,6 +107,9 @@ std::vector<Picture> readPictures(const GltfDocument& document, std::vector<Mate
                                   document.images[job.image].name, printable(job.problem)));
             continue;
         }
+        if (!job.picture.damage.empty())
+            notes.add(fmt::format("{} is damaged and shown as far as it could be decoded: {}",
+                                  document.images[job.image].name, printable(job.picture.damage)));
         numbers[job.image] = static_cast<uint32_t>(pictures.size());
         pictures.push_back(std::move(job.picture));
     }

@@ -2,6 +2,7 @@
 #include "gltf/read/skin.h"
 
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -60,18 +61,19 @@ class Blend {
 
 } // namespace
 
-std::vector<glm::dmat4> jointTransforms(const GltfDocument& document, int skin,
+std::vector<glm::dmat4> jointTransforms(const GltfDocument& document, size_t skin,
                                         const std::vector<glm::dmat4>& toWorld) {
-    const tinygltf::Skin& source = document.model.skins.at(static_cast<size_t>(skin));
-    const std::string name = describe("skin", static_cast<size_t>(skin), source.name);
-    if (source.joints.empty())
-        throw document.error(name + " has no joints");
+    const JsonView source = document.list("skins")[skin];
+    const std::string name = describe("skin", skin, source.text("name"));
     std::vector<glm::dmat4> transforms;
-    for (const int joint : source.joints)
-        transforms.push_back(toWorld.at(static_cast<size_t>(joint)));
-    if (source.inverseBindMatrices < 0)
+    for (const JsonView joint : source["joints"].elements())
+        transforms.push_back(toWorld.at(joint.asCount(0)));
+    if (transforms.empty())
+        throw document.error(name + " has no joints");
+    const std::optional<size_t> accessor = source.index("inverseBindMatrices");
+    if (!accessor)
         return transforms;
-    const AccessorView matrices(document, source.inverseBindMatrices);
+    const AccessorView matrices(document, *accessor);
     if (!matrices.isFloatMat4() || matrices.count() < transforms.size())
         throw document.error(fmt::format("{} needs {} MAT4s of floats for its joints, {} does not hold them",
                                          name, transforms.size(), matrices.name()));
@@ -80,19 +82,19 @@ std::vector<glm::dmat4> jointTransforms(const GltfDocument& document, int skin,
     return transforms;
 }
 
-bool hasJoints(const tinygltf::Primitive& primitive) {
-    return primitive.attributes.contains("JOINTS_0") && primitive.attributes.contains("WEIGHTS_0");
+bool hasJoints(JsonView primitive) {
+    return primitive["attributes"].has("JOINTS_0") && primitive["attributes"].has("WEIGHTS_0");
 }
 
-void applySkin(const GltfDocument& document, const tinygltf::Primitive& primitive,
-               const std::vector<uint32_t>& vertices, const std::vector<glm::dmat4>& joints, Mesh& mesh) {
+void applySkin(const GltfDocument& document, JsonView primitive, const std::vector<uint32_t>& vertices,
+               const std::vector<glm::dmat4>& joints, Mesh& mesh) {
     Blend blend(document, vertices, joints);
     for (size_t set = 0;; ++set) {
-        const auto numbers = primitive.attributes.find(fmt::format("JOINTS_{}", set));
-        const auto weights = primitive.attributes.find(fmt::format("WEIGHTS_{}", set));
-        if (numbers == primitive.attributes.end() || weights == primitive.attributes.end())
+        const std::optional<size_t> numbers = primitive["attributes"].index(fmt::format("JOINTS_{}", set));
+        const std::optional<size_t> weights = primitive["attributes"].index(fmt::format("WEIGHTS_{}", set));
+        if (!numbers || !weights)
             break;
-        blend.add(AccessorView(document, numbers->second), AccessorView(document, weights->second));
+        blend.add(AccessorView(document, *numbers), AccessorView(document, *weights));
     }
     std::vector<bool> isMirrored(vertices.size(), false);
     for (size_t i = 0; i < vertices.size(); ++i) {

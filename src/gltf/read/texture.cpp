@@ -36,22 +36,17 @@ std::optional<size_t> imageOf(const Json& texture, size_t imageCount) {
     return std::nullopt;
 }
 
-double numberAt(const tinygltf::Value& object, const char* member, int index, double otherwise) {
-    return object.Has(member) ? object.Get(member).Get(index).GetNumberAsDouble() : otherwise;
-}
-
 // KHR_texture_transform: scaled, then turned, then moved. The sense of the rotation is that of the
 // extension's sample renderer and of its test model.
-void applyTransform(const tinygltf::Value& transform, Texture& texture) {
-    const double angle = transform.Has("rotation") ? transform.Get("rotation").GetNumberAsDouble() : 0.0;
+void applyTransform(JsonView transform, Texture& texture) {
+    const double angle = transform.number("rotation", 0.0);
     const double c = std::cos(angle);
     const double s = std::sin(angle);
-    const double scaleU = numberAt(transform, "scale", 0, 1.0);
-    const double scaleV = numberAt(transform, "scale", 1, 1.0);
-    texture.uRow = glm::vec3(c * scaleU, s * scaleV, numberAt(transform, "offset", 0, 0.0));
-    texture.vRow = glm::vec3(-s * scaleU, c * scaleV, numberAt(transform, "offset", 1, 0.0));
-    if (transform.Has("texCoord"))
-        texture.uvSet = static_cast<uint32_t>(transform.Get("texCoord").GetNumberAsInt());
+    const glm::dvec2 scale = transform.vector<2>("scale", glm::dvec2(1.0));
+    const glm::dvec2 offset = transform.vector<2>("offset", glm::dvec2(0.0));
+    texture.uRow = glm::vec3(c * scale.x, s * scale.y, offset.x);
+    texture.vRow = glm::vec3(-s * scale.x, c * scale.y, offset.y);
+    texture.uvSet = static_cast<uint32_t>(transform.count("texCoord", texture.uvSet));
 }
 
 } // namespace
@@ -74,35 +69,20 @@ std::vector<GltfTexture> readTextures(const Json& json) {
     return textures;
 }
 
-GltfTextureValue::GltfTextureValue(const tinygltf::Value& extension, const char* member) {
-    if (!extension.Has(member))
-        return;
-    const tinygltf::Value& value = extension.Get(member);
-    info.texture = value.Get("index").GetNumberAsInt();
-    info.uvSet = value.Has("texCoord") ? value.Get("texCoord").GetNumberAsInt() : 0;
-    if (value.Has("extensions"))
-        for (const std::string& name : value.Get("extensions").Keys())
-            extensions_.emplace(name, value.Get("extensions").Get(name));
-    info.extensions = &extensions_;
-}
-
-std::optional<Texture> makeTexture(const std::vector<GltfTexture>& textures, const GltfTextureInfo& info,
-                                   bool isSrgb) {
-    if (info.texture < 0)
+std::optional<Texture> makeTexture(const std::vector<GltfTexture>& textures, JsonView info, bool isSrgb) {
+    const std::optional<size_t> index = info.index("index");
+    if (!index || !textures.at(*index).image)
         return std::nullopt;
-    const GltfTexture& source = textures.at(static_cast<size_t>(info.texture));
-    if (!source.image)
-        return std::nullopt;
+    const GltfTexture& source = textures[*index];
     Texture texture;
     texture.picture = static_cast<uint32_t>(*source.image);
-    texture.uvSet = static_cast<uint32_t>(info.uvSet);
+    texture.uvSet = static_cast<uint32_t>(info.count("texCoord", 0));
     texture.wrapU = source.wrapU;
     texture.wrapV = source.wrapV;
     texture.isNearest = source.isNearest;
     texture.isSrgb = isSrgb;
-    if (const auto transform = info.extensions->find("KHR_texture_transform");
-        transform != info.extensions->end())
-        applyTransform(transform->second, texture);
+    if (const JsonView transform = info["extensions"]["KHR_texture_transform"])
+        applyTransform(transform, texture);
     return texture;
 }
 

@@ -24,26 +24,21 @@ std::vector<std::string> readVariants(const nlohmann::json& json) {
     return names;
 }
 
-std::optional<int> findVariant(const std::vector<std::string>& variants, const std::string& wanted,
-                               const std::string& source) {
+std::optional<size_t> findVariant(const std::vector<std::string>& variants, const std::string& wanted,
+                                  const std::string& source) {
     if (wanted.empty())
         return std::nullopt;
-    return static_cast<int>(findNamed(variants, {wanted, "--variant", "variant", source}));
+    return findNamed(variants, {wanted, "--variant", "variant", source});
 }
 
-int materialOf(const tinygltf::Primitive& primitive, std::optional<int> variant) {
-    const auto extension = primitive.extensions.find(kExtension);
-    if (!variant || extension == primitive.extensions.end() || !extension->second.Has("mappings"))
-        return primitive.material;
-    const tinygltf::Value& mappings = extension->second.Get("mappings");
-    for (size_t i = 0; i < mappings.ArrayLen(); ++i) {
-        const tinygltf::Value& mapping = mappings.Get(static_cast<int>(i));
-        const tinygltf::Value& variants = mapping.Get("variants");
-        for (size_t k = 0; k < variants.ArrayLen(); ++k)
-            if (variants.Get(static_cast<int>(k)).GetNumberAsInt() == *variant)
-                return mapping.Get("material").GetNumberAsInt();
+std::optional<size_t> materialOf(JsonView primitive, std::optional<size_t> variant) {
+    const JsonView mappings = primitive["extensions"][kExtension]["mappings"];
+    for (const JsonView mapping : mappings.elements()) {
+        for (const JsonView number : mapping["variants"].elements())
+            if (variant && number.asCount(0) == *variant)
+                return mapping.index("material");
     }
-    return primitive.material;
+    return primitive.index("material");
 }
 
 } // namespace lavalight

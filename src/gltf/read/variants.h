@@ -6,8 +6,8 @@
 #include <vector>
 
 #include <nlohmann/json_fwd.hpp>
-#include <tiny_gltf.h>
 
+#include "gltf/file/json_view.h"
 namespace lavalight {
 
 // The names of the file's variants.
@@ -15,10 +15,10 @@ namespace lavalight {
 
 // The number of the variant that is asked for by name or number; none for an empty `wanted`. Throws
 // UsageError with the names that there are.
-[[nodiscard]] std::optional<int> findVariant(const std::vector<std::string>& variants,
-                                             const std::string& wanted, const std::string& source);
+[[nodiscard]] std::optional<size_t> findVariant(const std::vector<std::string>& variants,
+                                                const std::string& wanted, const std::string& source);
 
-// The material of a primitive in that variant; -1: the default.
-[[nodiscard]] int materialOf(const tinygltf::Primitive& primitive, std::optional<int> variant);
+// The material of a primitive in that variant; none: the default.
+[[nodiscard]] std::optional<size_t> materialOf(JsonView primitive, std::optional<size_t> variant);
 
 } // namespace lavalight

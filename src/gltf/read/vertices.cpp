@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -17,9 +18,8 @@ constexpr size_t kMostUvSets = 16;
 
 class VertexReader {
   public:
-    VertexReader(const GltfDocument& document, const tinygltf::Primitive& primitive,
-                 const std::vector<uint32_t>& vertices)
-        : document_(document), primitive_(primitive), vertices_(vertices) {}
+    VertexReader(const GltfDocument& document, JsonView primitive, const std::vector<uint32_t>& vertices)
+        : document_(document), attributes_(primitive["attributes"]), vertices_(vertices) {}
 
     [[nodiscard]] std::vector<glm::vec2> vec2s(const std::string& attribute) const {
         return read<glm::vec2>(attribute, &AccessorView::isVec2, &AccessorView::vec2At);
@@ -31,8 +31,8 @@ class VertexReader {
         return read<glm::vec4>(attribute, &AccessorView::isVec4, &AccessorView::vec4At);
     }
     [[nodiscard]] bool isVec3(const std::string& attribute) const {
-        const auto found = primitive_.attributes.find(attribute);
-        return found != primitive_.attributes.end() && AccessorView(document_, found->second).isVec3();
+        const std::optional<size_t> accessor = attributes_.index(attribute);
+        return accessor && AccessorView(document_, *accessor).isVec3();
     }
 
   private:
@@ -42,10 +42,10 @@ class VertexReader {
                                            bool (AccessorView::*isRight)() const,
                                            Vector (AccessorView::*at)(size_t) const) const {
         std::vector<Vector> values;
-        const auto found = primitive_.attributes.find(attribute);
-        if (found == primitive_.attributes.end())
+        const std::optional<size_t> accessor = attributes_.index(attribute);
+        if (!accessor)
             return values;
-        const AccessorView view(document_, found->second);
+        const AccessorView view(document_, *accessor);
         if (!(view.*isRight)())
             throw document_.error(fmt::format("{} is used as {} and must be a VEC{}", view.name(), attribute,
                                               Vector::length()));
@@ -56,7 +56,7 @@ class VertexReader {
     }
 
     const GltfDocument& document_;
-    const tinygltf::Primitive& primitive_;
+    JsonView attributes_;
     const std::vector<uint32_t>& vertices_;
 };
 
@@ -97,22 +97,22 @@ std::vector<glm::vec4> readColors(const VertexReader& reader) {
 
 } // namespace
 
-size_t countVertices(const GltfDocument& document, const tinygltf::Primitive& primitive,
-                     const std::string& name) {
-    const auto countOf = [&](int accessor) {
-        return document.model.accessors.at(static_cast<size_t>(accessor)).count;
+size_t countVertices(const GltfDocument& document, JsonView primitive, const std::string& name) {
+    const JsonView attributes = primitive["attributes"];
+    const auto countOf = [&](const std::string& attribute) {
+        return document.list("accessors")[attributes.count(attribute, 0)].count("count", 0);
     };
-    const size_t vertexCount = countOf(primitive.attributes.at("POSITION"));
-    for (const auto& [attribute, accessor] : primitive.attributes) {
-        if (countOf(accessor) != vertexCount)
+    const size_t vertexCount = countOf("POSITION");
+    for (const auto& [attribute, accessor] : attributes.members()) {
+        if (countOf(attribute) != vertexCount)
             throw document.error(fmt::format("{} has {} vertices but {} elements of {}", name, vertexCount,
-                                             countOf(accessor), attribute));
+                                             countOf(attribute), attribute));
     }
     return vertexCount;
 }
 
-Mesh readVertices(const GltfDocument& document, const tinygltf::Primitive& primitive,
-                  const std::vector<uint32_t>& vertices, const std::string& name, GltfNotes& notes) {
+Mesh readVertices(const GltfDocument& document, JsonView primitive, const std::vector<uint32_t>& vertices,
+                  const std::string& name, GltfNotes& notes) {
     const VertexReader reader(document, primitive, vertices);
     Mesh mesh;
     mesh.positions = reader.vec3s("POSITION");

@@ -12,13 +12,12 @@ namespace lavalight {
 
 // The primitive's vertices. Throws Error, naming the mesh, where its attributes differ in their numbers.
 // Requires POSITION.
-[[nodiscard]] size_t countVertices(const GltfDocument& document, const tinygltf::Primitive& primitive,
-                                   const std::string& name);
+[[nodiscard]] size_t countVertices(const GltfDocument& document, JsonView primitive, const std::string& name);
 
 // The vertices of these numbers, which are below countVertices, as a mesh without triangles. Positions,
 // normals and tangents are as in the file; uvs are finite, colours from 0 to 1. `name` is the mesh's. Throws
 // Error for an attribute whose accessor is of another type than glTF asks for.
-[[nodiscard]] Mesh readVertices(const GltfDocument& document, const tinygltf::Primitive& primitive,
+[[nodiscard]] Mesh readVertices(const GltfDocument& document, JsonView primitive,
                                 const std::vector<uint32_t>& vertices, const std::string& name,
                                 GltfNotes& notes);
 

@@ -4,6 +4,7 @@
 //                               VK_ERROR_DEVICE_LOST (-4) all later ones return it too, as of a real device
 //   LAVALIGHT_FAULT="hidden"    no queue can present to a window
 //   LAVALIGHT_FAULT_LOG=FILE    gets the names of the calls, one a line
+// A program that loads this library itself may ask for faults while it runs: the functions at the end.
 #include <atomic>
 #include <cstdio>
 #include <cstdlib>
@@ -16,21 +17,22 @@
 namespace {
 
 struct Fault {
-    long call = 0; // 0: none
-    VkResult result = VK_SUCCESS;
+    std::atomic<long> call = 0; // 0: none
+    std::atomic<VkResult> result = VK_SUCCESS;
     bool hidesWindows = false;
 };
 
-Fault readFault() {
+void readFault(Fault& fault) {
     const char* text = std::getenv("LAVALIGHT_FAULT");
-    Fault fault;
     if (text == nullptr)
-        return fault;
+        return;
+    long call = 0;
     int result = 0;
-    if (std::sscanf(text, "%ld %d", &fault.call, &result) == 2)
+    if (std::sscanf(text, "%ld %d", &call, &result) == 2) {
+        fault.call = call;
         fault.result = static_cast<VkResult>(result);
+    }
     fault.hidesWindows = std::strcmp(text, "hidden") == 0;
-    return fault;
 }
 
 std::FILE* openLog() {
@@ -38,10 +40,12 @@ std::FILE* openLog() {
     return file == nullptr ? nullptr : std::fopen(file, "w");
 }
 
-const Fault fault = readFault();
+Fault fault;
+[[maybe_unused]] const bool isFaultRead = (readFault(fault), true);
 std::FILE* const callLog = openLog();
 std::atomic<long> calls = 0;
 std::atomic<bool> deviceIsLost = false;
+std::atomic<const char*> lastFailure = "";
 
 // What a call returns instead of being made, or VK_SUCCESS.
 VkResult failureOf(const char* name) {
@@ -54,6 +58,7 @@ VkResult failureOf(const char* name) {
         return VK_ERROR_DEVICE_LOST;
     if (call != fault.call)
         return VK_SUCCESS;
+    lastFailure = name;
     deviceIsLost = fault.result == VK_ERROR_DEVICE_LOST;
     return fault.result;
 }
@@ -210,11 +215,24 @@ VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL instanceProcAddr(VkInstance instance, c
 
 } // namespace
 
-extern "C" VK_LAYER_EXPORT VKAPI_ATTR VkResult VKAPI_CALL
+extern "C" __attribute__((visibility("default"))) VKAPI_ATTR VkResult VKAPI_CALL
 vkNegotiateLoaderLayerInterfaceVersion(VkNegotiateLayerInterface* negotiation) {
     negotiation->loaderLayerInterfaceVersion = 2;
     negotiation->pfnGetInstanceProcAddr = &instanceProcAddr;
     negotiation->pfnGetDeviceProcAddr = &deviceProcAddr;
     negotiation->pfnGetPhysicalDeviceProcAddr = nullptr;
     return VK_SUCCESS;
+}
+
+// From now on the `call`-th call returns `result`; 0: none does.
+extern "C" VK_LAYER_EXPORT void lavalightFaultSet(long call, int result) {
+    calls = 0;
+    deviceIsLost = false;
+    lastFailure = "";
+    fault.result = static_cast<VkResult>(result);
+    fault.call = call;
+}
+// The name of the call that failed since then; empty: none did.
+extern "C" VK_LAYER_EXPORT const char* lavalightFaultMet() {
+    return lastFailure;
 }

@@ -21,6 +21,22 @@ class VulkanFault {
     EnvironmentVariable log_;
 };
 
+// Faults within the test's own process: devices opened while one lives have the layer.
+class FaultyDevices {
+  public:
+    FaultyDevices();
+    // The `call`-th call from now on returns `result`.
+    void failAt(long call, int result) const { set_(call, result); }
+    void failNone() const { set_(0, 0); }
+    // The name of the call that has failed since then; empty: none has.
+    [[nodiscard]] std::string failure() const { return met_(); }
+
+  private:
+    VulkanFault layer_{""};
+    void (*set_)(long, int) = nullptr;
+    const char* (*met_)() = nullptr;
+};
+
 // The library of failing_new.cpp: the `call`-th allocation fails, none for 0. Their number goes to `log`.
 class FailingNew {
   public:

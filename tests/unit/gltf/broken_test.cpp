@@ -153,6 +153,28 @@ TEST(BrokenGltf, MoreTrianglesThanCanBeHeldAreRefusedBeforeTheyAreMade) {
     expectError(builder, "accessor 0 asks for 2000000000 elements without data");
 }
 
+TEST(BrokenGltf, CamerasNeedTheProjectionOfTheirType) {
+    expectErrorAfter("/cameras", {{{"type", "fisheye"}, {"name", "eye"}}},
+                     "camera 0 \"eye\" has the type \"fisheye\" instead of perspective or orthographic");
+    expectErrorAfter("/cameras", {{{"type", "perspective"}}}, "camera 0 has no \"perspective\"");
+    expectErrorAfter("/cameras", {{{"type", "orthographic"}, {"orthographic", 3}}},
+                     "cameras[0].orthographic is not an object");
+}
+
+TEST(BrokenGltf, SkinsNeedJoints) {
+    expectErrorAfter("/skins", {Json::object()}, "skins[0] has no \"joints\"");
+}
+
+TEST(BrokenGltf, ChannelsWithoutANodeMoveNothing) {
+    GltfBuilder builder = goodFile();
+    const int times = builder.addAccessor({{"componentType", kFloat}, {"count", 1}, {"type", "SCALAR"}});
+    builder.json["animations"] = {{{"samplers", {{{"input", times}, {"output", 0}}}},
+                                   {"channels", {{{"sampler", 5}, {"target", {{"path", "scale"}}}}}}}};
+    EXPECT_EQ(importGltf("test.glb", builder.glb(), {.seconds = 0.0}).triangleCount(), 1u);
+    builder.json["animations"][0]["channels"][0]["target"]["node"] = 0;
+    EXPECT_THROW((void)importGltf("test.glb", builder.glb(), {.seconds = 0.0}), Error);
+}
+
 TEST(BrokenGltf, NamesWithLineBreaksStayOnOneLine) {
     GltfBuilder builder = goodFile();
     builder.json["accessors"][0]["name"] = "two\nlines";

@@ -19,10 +19,19 @@ constexpr const char* kPng16 =
     "data:image/"
     "png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABEAIAAADA54+dAAAAD0lEQVR42mMQMmlg+P8fAAZ0AsXcUeSkAAAAAElFTkSu"
     "QmCC";
-// Its header claims 16384 x 16384 texels.
+// A file whose header claims 16384 x 16384 texels.
 constexpr const char* kBomb =
     "data:image/"
     "png;base64,iVBORw0KGgoAAAANSUhEUgAAQAAAAEAACAYAAACpyBCEAAAAC0lEQVR4nGNgQAUAABAAATm9j2UAAAAASUVORK5CYII=";
+
+// 8 x 8 texels of a grey of 200, without the last two bytes, which mark the end.
+constexpr const char* kJpegWithoutEnd =
+    "data:image/jpeg;base64,"
+    "/9j/4AAQSkZJRgABAQAAAQABAAD/2wBDAAMCAgMCAgMDAwMEAwMEBQgFBQQEBQoHBwYIDAoMDAsKCwsNDhIQDQ4RDgsLEBYQERMU"
+    "FRUVDA8XGBYUGBIUFRT/wAALCAAIAAgBAREA/8QAHwAAAQUBAQEBAQEAAAAAAAAAAAECAwQFBgcICQoL/8QAtRAAAgEDAwIEAwUF"
+    "BAQAAAF9AQIDAAQRBRIhMUEGE1FhByJxFDKBkaEII0KxwRVS0fAkM2JyggkKFhcYGRolJicoKSo0NTY3ODk6Q0RFRkdISUpTVFVW"
+    "V1hZWmNkZWZnaGlqc3R1dnd4eXqDhIWGh4iJipKTlJWWl5iZmqKjpKWmp6ipqrKztLW2t7i5usLDxMXGx8jJytLT1NXW19jZ2uHi"
+    "4+Tl5ufo6erx8vP09fb3+Pn6/9oACAEBAAA/APsCvw==";
 
 // A triangle whose base colour is `textureInfo`; texture i shows image i.
 GltfBuilder textured(Json textureInfo, const std::vector<std::string>& images) {
@@ -120,7 +129,7 @@ TEST(GltfTexture, PictureOfManyMaterialsIsDecodedOnce) {
     EXPECT_TRUE(scene.materials.at(1).texture(TextureSlot::emission)->isSrgb);
 }
 
-// Also shows that the size is checked before memory is taken.
+// kBomb also shows that the size is checked before memory is taken.
 TEST(GltfTexture, UnreadablePicturesLeaveThePlainFactorsAndAWarning) {
     const std::vector<std::pair<std::string, const char*>> bad = {
         {"missing.png", "an embedded scene cannot refer to files"},
@@ -134,6 +143,15 @@ TEST(GltfTexture, UnreadablePicturesLeaveThePlainFactorsAndAWarning) {
         EXPECT_EQ(warningsWith(scene, "image 0"), 1) << message;
         EXPECT_EQ(warningsWith(scene, message), 1) << message;
     }
+}
+
+TEST(GltfTexture, JpegWithoutItsEndIsShownWithAWarning) {
+    const Scene scene = textured({{"index", 0}}, {kJpegWithoutEnd}).import();
+    ASSERT_EQ(scene.pictures.size(), 1u);
+    EXPECT_EQ(scene.pictures[0].width, 8u);
+    EXPECT_NEAR(scene.pictures[0].bytes.at(0), 200, 1);
+    EXPECT_EQ(
+        warningsWith(scene, "image 0 is damaged and shown as far as it could be decoded: Premature end"), 1);
 }
 
 TEST(GltfTexture, TextureWithoutASourceLeavesThePlainFactors) {

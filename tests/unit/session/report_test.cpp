@@ -5,7 +5,10 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "film/film_identity.h"
+#include "render/setting_table.h"
 #include "session/report.h"
+#include "support/changed_setting.h"
 
 namespace lavalight {
 namespace {
@@ -58,7 +61,7 @@ TEST(Ledger, NamesBiasedSettings) {
     RenderSettings settings;
     settings.estimator.clampIndirect = 7.5f;
     settings.estimator.nextEventEstimation = false;
-    settings.targetError = 0.125;
+    settings.stop.targetError = 0.125;
     const std::string text = ledgerText(makeLedger(scene, settings, FilmTallies(), StopReason::targetError));
     EXPECT_NE(text.find("clamp-indirect: indirect light was limited to 7.5"), std::string::npos) << text;
     EXPECT_NE(text.find("unreachable-lights: --nee off cannot find 2"), std::string::npos) << text;
@@ -70,9 +73,9 @@ RenderReport exampleReport() {
     RenderReport report;
     report.scene = "some \"scene\".gltf";
     report.camera = "cam\xff"; // no valid UTF-8
-    report.settings.width = 20;
-    report.settings.height = 10;
-    report.settings.samples = 6;
+    report.settings.image.width = 20;
+    report.settings.image.height = 10;
+    report.settings.stop.samples = 6;
     report.device.name = "device";
     report.device.driver = "driver 1.2";
     report.device.type = "CPU";
@@ -89,6 +92,25 @@ RenderReport exampleReport() {
     report.warnings = {"first", "second"};
     report.meanRadiance = {0.1, 0.2, 0.3};
     return report;
+}
+
+// Films of the two settings, by their headers; empty if they may be merged.
+std::string differencesOf(const EstimatorSettings& a, const EstimatorSettings& b) {
+    RenderReport report = exampleReport();
+    report.settings.estimator = a;
+    const Metadata first = exrMetadata(report);
+    report.settings.estimator = b;
+    const Metadata second = exrMetadata(report);
+    return differences({first, "a"}, {second, "b"});
+}
+
+TEST(Report, FilmsThatDifferInASettingThatDecidesBitsAreNotMerged) {
+    EXPECT_EQ(differencesOf({}, {}), "");
+    for (const SettingRow& row : settingRows()) {
+        const std::string difference = differencesOf({}, test::withAnother(row));
+        EXPECT_EQ(difference.starts_with("--" + std::string(row.name) + " ("), row.decidesBits)
+            << row.name << ": " << difference;
+    }
 }
 
 TEST(Report, IsJsonWithWhatTheRenderWasAndCost) {

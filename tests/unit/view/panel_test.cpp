@@ -190,9 +190,9 @@ TEST_F(ScenePanelTest, LensIsOpenedAndFocused) {
 
 TEST_F(ScenePanelTest, EnvironmentIsTurnedAndDimmedWithoutReadingTheScene) {
     drag("Lavalight", "map's rotation", 20.0f);
-    EXPECT_NE(view_.settings.environmentRotation, 0.0f);
+    EXPECT_NE(view_.settings.lighting.rotation, 0.0f);
     drag("Lavalight", "environment", 50.0f);
-    EXPECT_GT(view_.settings.environmentIntensity, 1.0f);
+    EXPECT_GT(view_.settings.lighting.intensity, 1.0f);
     EXPECT_FALSE(wantsScene_);
 }
 
@@ -250,7 +250,7 @@ TEST_F(PanelTest, SettingsThatOthersNeedComeAndGoWithThem) {
     EXPECT_FALSE(estimator.misSurvival) << "it has no meaning there";
     click("Lavalight", "left/clamp indirect light");
     EXPECT_EQ(estimator.clampIndirect, 10.0f);
-    drag("Lavalight", "left/at most", 50.0f);
+    drag("Lavalight", "left/at most##clamp indirect light", 50.0f);
     EXPECT_GT(estimator.clampIndirect, 10.0f);
     click("Lavalight", "left/clamp indirect light");
     EXPECT_EQ(estimator.clampIndirect, std::numeric_limits<float>::infinity());
