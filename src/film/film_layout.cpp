@@ -50,7 +50,7 @@ bool isName(std::string_view text) {
     });
 }
 
-std::string textOf(const LayerPlane& plane) {
+std::string planeText(const LayerPlane& plane) {
     return fmt::format("{}{}{} {}{}", plane.name, kAfterName, fmt::join(plane.channels, ","),
                        plane.isSigned() ? "signed" : "unsigned", plane.hasSquares() ? " squares" : "");
 }
@@ -67,7 +67,7 @@ std::optional<LayerPlane> parsePlane(std::string_view text) {
     const bool areNames =
         isName(plane.name) && std::all_of(plane.channels.begin(), plane.channels.end(), isName);
     // What is written as it was read was read to its end.
-    return areNames && plane.channels.size() <= kMostComponents && textOf(plane) == text
+    return areNames && plane.channels.size() <= kMostComponents && planeText(plane) == text
                ? std::optional(plane)
                : std::nullopt;
 }
@@ -135,7 +135,7 @@ const FilmLayout& colorLayout() {
 std::string textOf(const FilmLayout& layout) {
     std::string text;
     for (const LayerPlane& plane : layout.planes())
-        text += fmt::format("{}{}", text.empty() ? "" : kBetweenPlanes, textOf(plane));
+        text += fmt::format("{}{}", text.empty() ? "" : kBetweenPlanes, planeText(plane));
     return text;
 }
 

@@ -33,7 +33,7 @@ void requireOneImage(const NamedFilm& a, const NamedFilm& b) {
                         "layers",
                         textOf(a.file.film.layout), a.name, textOf(b.file.film.layout), b.name));
     if (const auto both = overlapOf(a.file.ranges, b.file.ranges))
-        refuse(fmt::format("both hold the samples {}", textOf({*both})));
+        refuse(fmt::format("both hold the samples {}", textOf(SampleRanges{*both})));
 }
 
 // The ledger's words come from the settings, and from the tallies of all samples.

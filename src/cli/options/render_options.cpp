@@ -77,8 +77,11 @@ void RenderOptions::declareEstimator(CLI::App& parser) {
 
 void RenderOptions::declareDevice(CLI::App& parser) {
     device_.emplace(parser);
-    addNamed(parser, "--schedule,--kernels", settings_.work.schedule,
+    addNamed(parser, "--schedule", settings_.work.schedule,
              "One kernel for whole paths, or one for each step; auto: by device");
+    // The name that it had before, left out of the help.
+    addNamed(parser, "--kernels", settings_.work.schedule, "");
+    parser.get_option("--kernels")->group("")->excludes(parser.get_option("--schedule"));
     parser
         .add_option("--wave-size", settings_.work.waveSize,
                     "Paths in flight; 0: by the kernels; changes no bit of the image")
