@@ -12,6 +12,7 @@
 #include "accel/presplit.h"
 #include "base/error.h"
 #include "base/log.h"
+#include "image/texel_limit.h"
 #include "shared/triangle.h"
 
 namespace lavalight {
@@ -129,7 +130,7 @@ void requireBvhFits(uint64_t leafTriangles, uint64_t nodes) {
             fmt::format("cannot build the BVH: {} leaf triangles exceed the {} that fit into a texel buffer: "
                         "simplify the scene",
                         leafTriangles, kMaxTexels / kTriangleTexels));
-    static_assert(kMaxNodes * kNodeTexels <= kMaxTexels);
+    static_assert(kMaxNodes * kNodeTexels <= kMaxTexels && kMaxTexels == kMostBufferTexels);
     if (nodes > kMaxNodes)
         throw Error(fmt::format(
             "cannot build the BVH: {} nodes exceed the {} that traversal can number: simplify the scene",

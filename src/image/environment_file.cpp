@@ -8,11 +8,10 @@
 #include "base/file.h"
 #include "image/exr.h"
 #include "image/hdr.h"
+#include "image/texel_limit.h"
 
 namespace lavalight {
 namespace {
-
-constexpr uint64_t kMostTexels = 1u << 27; // elements of a texel buffer on the devices we know
 
 bool isExr(const std::filesystem::path& path) {
     requireRegularFile(path);
@@ -29,7 +28,8 @@ bool isGood(float value) {
 
 EnvironmentFile readEnvironmentFile(const std::filesystem::path& path) {
     EnvironmentFile file;
-    file.image = isExr(path) ? std::move(readExr(path, kMostTexels).radiance) : readHdr(path, kMostTexels);
+    file.image =
+        isExr(path) ? std::move(readExr(path, kMostBufferTexels).radiance) : readHdr(path, kMostBufferTexels);
     for (glm::vec3& pixel : file.image.pixels) {
         const glm::bvec3 good(isGood(pixel.x), isGood(pixel.y), isGood(pixel.z));
         file.badTexels += glm::all(good) ? 0u : 1u;

@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "image/texel_limit.h"
+
 namespace lavalight {
 
 // Four channels RGBA, rows from the top, values as in the file.
@@ -19,7 +21,7 @@ struct Picture {
 };
 
 // The most texels of a picture; 512 MiB of them, or twice that with 16 bits a channel.
-constexpr uint64_t kMostPictureTexels = 134'217'728;
+constexpr uint64_t kMostPictureTexels = kMostBufferTexels;
 
 struct PictureSize {
     uint32_t width = 0;

@@ -13,6 +13,7 @@
 #include "image/image.h"
 #include "image/picture.h"
 #include "image/texel.h"
+#include "image/texel_limit.h"
 
 namespace lavalight {
 
@@ -166,12 +167,11 @@ struct Bounds {
     [[nodiscard]] float radius() const { return 0.5f * glm::length(upper - lower); }
 };
 
-// The most triangles of a scene: three 16-byte texels each must fit the 134,217,728 elements that texel
-// buffers have on the devices we know.
-constexpr uint64_t kMostTriangles = 134'217'728 / 3;
+// The most triangles of a scene: three 16-byte texels each must fit a texel buffer.
+constexpr uint64_t kMostTriangles = kMostBufferTexels / 3;
 
 // The most bytes of all pictures of a scene, which share one texel buffer.
-constexpr uint64_t kMostPictureBytes = uint64_t{134'217'728} * 16;
+constexpr uint64_t kMostPictureBytes = kMostBufferTexels * 16;
 
 // Metres from the origin in each coordinate. Squares of distances up to here, which bounds and falloff need,
 // stay finite in single precision.
