@@ -2,15 +2,17 @@
 
 add_library(lavalight_options INTERFACE)
 # No contraction to fused multiply-adds: the same bits on every processor.
-target_compile_options(lavalight_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Werror -ffp-contract=off)
+target_compile_options(lavalight_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow
+    $<$<BOOL:${LAVALIGHT_WERROR}>:-Werror> -ffp-contract=off)
 # g++ 13 and newer report members of an empty std::optional or std::variant as used uninitialised.
 target_compile_options(lavalight_options INTERFACE
     $<$<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_GREATER_EQUAL:$<CXX_COMPILER_VERSION>,13>>:-Wno-maybe-uninitialized>)
 target_include_directories(lavalight_options INTERFACE ${CMAKE_SOURCE_DIR}/src ${CMAKE_SOURCE_DIR}/shaders)
 
-# lavalight_library(NAME DEPS ... [PRIVATE_DEPS ...] [EXCLUDE file...]): all of src/NAME and below as lavalight_NAME.
+# lavalight_library(NAME DEPS ... [PRIVATE_DEPS ...] [EXCLUDE file...] [TOGETHER n]): all of src/NAME and below as lavalight_NAME.
+# TOGETHER compiles n files at a time, which read the same headers once. What they name for themselves then has to differ.
 function(lavalight_library name)
-    cmake_parse_arguments(ARG "" "" "DEPS;PRIVATE_DEPS;EXCLUDE" ${ARGN})
+    cmake_parse_arguments(ARG "" "TOGETHER" "DEPS;PRIVATE_DEPS;EXCLUDE" ${ARGN})
     file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/${name}/*.cpp ${CMAKE_SOURCE_DIR}/src/${name}/*.h)
     foreach(file ${ARG_EXCLUDE})
         list(REMOVE_ITEM sources ${CMAKE_SOURCE_DIR}/src/${name}/${file})
@@ -18,6 +20,9 @@ function(lavalight_library name)
     add_library(lavalight_${name} STATIC ${sources})
     set_target_properties(lavalight_${name} PROPERTIES LINKER_LANGUAGE CXX)
     target_link_libraries(lavalight_${name} PUBLIC lavalight_options ${ARG_DEPS} PRIVATE ${ARG_PRIVATE_DEPS})
+    if(ARG_TOGETHER)
+        set_target_properties(lavalight_${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${ARG_TOGETHER})
+    endif()
 endfunction()
 
 # lavalight_embed_files(LIB NAMESPACE ns ROOT dir FILES f...): each file's bytes, named by its path below ROOT, found by

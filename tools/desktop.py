@@ -36,6 +36,7 @@ class Desktop:
             if time.monotonic() - start > 30:
                 sys.exit("cannot start a desktop: openbox does not come up")
             time.sleep(0.1)
+        time.sleep(1.0)  # it may answer before it takes windows; GLFW waits for ever for one that is never mapped
 
     def do(self, *words):
         """xdotool; its failures are the caller's to explain: a window that is gone, or never comes."""

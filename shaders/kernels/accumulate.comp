@@ -1,54 +1,45 @@
 #version 460
 // Adds the finished paths of the wave to the film, one invocation a pixel, exactly.
-#include "lib/film/fixed_point.glsl"
-#include "scene/frame.glsl"
+#include "scene/film.glsl"
 #include "scene/tally.glsl"
 #include "scene/wave.glsl"
-#include "shared/film.h"
 
 layout(local_size_x = 64) in;
-layout(set = 0, binding = BINDING_FILM, std430) buffer Film { uint film[]; };
 
-bool isFinite(vec3 v) {
-    return !any(isnan(v)) && !any(isinf(v));
+// What the sample in a slot has of a plane: a line each, and the colour last. Components that the plane lacks are 0.
+vec3 valueIn(uint plane, uint slot) {
+    return paths[slot].radiance;
 }
 
-// The sums of one channel of one pixel: in registers while the wave's samples are added.
-struct ChannelSums {
-    uvec3 sum;
-    uvec4 square;
-};
-
-uint wordAt(uint channel, uint word, uint pixel) {
-    return (channel * kChannelWords + word) * frame.bandPixels + pixel;
+// Samples are whole: NaN or infinity in one plane keeps them out of all.
+bool isFinite(uint slot) {
+    bool finite = true;
+    for (uint plane = 0u; plane < kFilmPlaneCount; ++plane)
+        if (filmHas(plane)) {
+            const vec3 value = valueIn(plane, slot);
+            finite = finite && !any(isnan(value)) && !any(isinf(value));
+        }
+    return finite;
 }
 
-ChannelSums loadSums(uint channel, uint pixel) {
-    return ChannelSums(uvec3(film[wordAt(channel, 0u, pixel)], film[wordAt(channel, 1u, pixel)], film[wordAt(channel, 2u, pixel)]),
-                       uvec4(film[wordAt(channel, 3u, pixel)], film[wordAt(channel, 4u, pixel)], film[wordAt(channel, 5u, pixel)],
-                             film[wordAt(channel, 6u, pixel)]));
+void fill(uint plane, uint firstSlot, uint pixel, inout FilmEvents events) {
+    PlaneSums sums = loadSums(plane, pixel);
+    const uint saturatedBefore = saturatedSums(plane, sums);
+    uint dropped = 0u;
+    for (uint slot = firstSlot; slot < firstSlot + range.sampleCount; ++slot) {
+        if (isFinite(slot))
+            addValue(plane, sums, valueIn(plane, slot), events);
+        else
+            ++dropped;
+    }
+    events.dropped = dropped; // the same of all planes
+    events.saturated += saturatedSums(plane, sums) - saturatedBefore;
+    storeSums(plane, pixel, sums);
 }
 
-void storeSums(uint channel, uint pixel, ChannelSums sums) {
-    for (uint word = 0u; word < 3u; ++word)
-        film[wordAt(channel, word, pixel)] = sums.sum[word];
-    for (uint word = 0u; word < 4u; ++word)
-        film[wordAt(channel, 3u + word, pixel)] = sums.square[word];
-}
-
-void addRadiance(inout ChannelSums sums, float radiance) {
-    const float value = max(radiance, 0.0);
-    addExactly(sums.sum, value, kSumLowestExponent);
-    addExactly(sums.square, value * value, kSquareLowestExponent);
-}
-
-// Sums that have left their range. They are counted when they do, not once a sample: so the count follows from the film.
-uint saturatedSums(ChannelSums sums) {
-    return (sums.sum == uvec3(0xffffffffu) ? 1u : 0u) + (sums.square == uvec4(0xffffffffu) ? 1u : 0u);
-}
-
-uint saturatedSums(ChannelSums red, ChannelSums green, ChannelSums blue) {
-    return saturatedSums(red) + saturatedSums(green) + saturatedSums(blue);
+void report(uint tally, uint count) {
+    if (count > 0u)
+        addTally(tally, count);
 }
 
 void main() {
@@ -57,28 +48,14 @@ void main() {
         return;
     const uint pixel = range.firstPixel - range.bandFirstPixel + index;
     const uint firstSlot = index * range.sampleCount;
-    ChannelSums red = loadSums(0u, pixel);
-    ChannelSums green = loadSums(1u, pixel);
-    ChannelSums blue = loadSums(2u, pixel);
-    const uint saturatedBefore = saturatedSums(red, green, blue);
-    uint dropped = 0u;
-    for (uint slot = firstSlot; slot < firstSlot + range.sampleCount; ++slot) {
-        const vec3 radiance = paths[slot].radiance;
-        if (isFinite(radiance)) {
-            addRadiance(red, radiance.x);
-            addRadiance(green, radiance.y);
-            addRadiance(blue, radiance.z);
-        } else {
-            ++dropped;
-        }
-    }
-    const uint saturated = saturatedSums(red, green, blue) - saturatedBefore;
-    storeSums(0u, pixel, red);
-    storeSums(1u, pixel, green);
-    storeSums(2u, pixel, blue);
-    film[kCountPlane * frame.bandPixels + pixel] += range.sampleCount - dropped;
-    if (saturated > 0u)
-        addTally(kTallySaturated, saturated);
-    if (dropped > 0u)
-        addTally(kTallyDropped, dropped);
+    FilmEvents events = FilmEvents(0u, 0u, 0u, 0u);
+    fill(kColorPlane, firstSlot, pixel, events); // apart from the loop, where its number is known to the compiler
+    for (uint plane = kColorPlane + 1u; plane < kFilmPlaneCount; ++plane)
+        if (filmHas(plane))
+            fill(plane, firstSlot, pixel, events);
+    film[wordAt(countWordOf(kPlanesAsked), pixel)] += range.sampleCount - events.dropped;
+    report(kTallyDropped, events.dropped);
+    report(kTallyNegative, events.negative);
+    report(kTallyLimited, events.limited);
+    report(kTallySaturated, events.saturated);
 }

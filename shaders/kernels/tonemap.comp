@@ -1,5 +1,5 @@
 #version 460
-// The film as a display shows it, one invocation a pixel: mean radiance, exposed, mapped, encoded, in 8 bits a channel.
+// A plane of the film as a display shows it, one invocation a pixel: means, exposed, mapped, encoded, in 8 bits a channel.
 #include "lib/film/fixed_point.glsl"
 #include "lib/film/tone_map.glsl"
 #include "shared/bindings.h"
@@ -11,20 +11,32 @@ layout(set = 0, binding = BINDING_FILM, std430) readonly buffer Film { uint film
 layout(set = 0, binding = BINDING_DISPLAY, std430) writeonly buffer Display { uint display[]; };
 layout(push_constant) uniform Range { ToneRange range; };
 
-float sumOf(uint channel, uint pixel) {
-    const uint low = channel * kChannelWords * range.bandPixels + pixel;
-    const uvec3 words = uvec3(film[low], film[low + range.bandPixels], film[low + 2u * range.bandPixels]);
-    return fromFixed(words, kSumLowestExponent);
+uint wordOf(uint word, uint pixel) {
+    return film[word * range.bandPixels + pixel];
+}
+
+float sumOf(uint component, uint pixel) {
+    const uint first = range.firstWord + component * componentWordsOf(range.plane);
+    const uvec3 low = uvec3(wordOf(first, pixel), wordOf(first + 1u, pixel), wordOf(first + 2u, pixel));
+    return range.plane.isSigned != 0u ? fromSigned(uvec4(low, wordOf(first + 3u, pixel)), kSumLowestExponent)
+                                      : fromFixed(low, kSumLowestExponent);
+}
+
+// A single component is grey; a second stands beside no third.
+vec3 sums(uint pixel) {
+    const float x = sumOf(0u, pixel);
+    if (range.plane.components == 1u)
+        return vec3(x);
+    return vec3(x, sumOf(1u, pixel), range.plane.components > 2u ? sumOf(2u, pixel) : 0.0);
 }
 
 void main() {
     const uint pixel = range.firstPixel + gl_GlobalInvocationID.x;
     if (pixel >= range.bandPixels)
         return;
-    const vec3 sum = vec3(sumOf(0u, pixel), sumOf(1u, pixel), sumOf(2u, pixel));
-    const uint count = film[kCountPlane * range.bandPixels + pixel];
-    const vec3 radiance = sum / float(max(count, 1u)); // black without samples
-    const vec3 signal = encodeSrgb(toneMap(kToneCurve, range.scale * radiance));
+    const uint count = wordOf(range.countWord, pixel);
+    const vec3 mean = max(sums(pixel) / float(max(count, 1u)), 0.0); // black without samples
+    const vec3 signal = encodeSrgb(toneMap(kToneCurve, range.scale * mean));
     const uvec3 code = uvec3(255.0 * signal + 0.5);
     display[pixel] = code.r | code.g << 8u | code.b << 16u | 0xff000000u;
 }

@@ -7,7 +7,7 @@
 #include "lib/bsdf/fresnel.glsl"
 #include "shared/bindings.h"
 
-layout(set = 0, binding = BINDING_ALBEDO_TABLE) uniform usamplerBuffer albedoTable;
+layout(set = 0, binding = BINDING_ALBEDO_TABLE) uniform utextureBuffer albedoTable;
 
 vec3 fetchAlbedo(uint entry) {
     return uintBitsToFloat(texelFetch(albedoTable, int(entry)).xyz);

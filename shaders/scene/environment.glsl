@@ -7,8 +7,8 @@
 #include "shared/bindings.h"
 #include "shared/frame.h"
 
-layout(set = 0, binding = BINDING_ENVIRONMENT_MAP) uniform usamplerBuffer environmentMap; // texel and scale of each cell
-layout(set = 0, binding = BINDING_ENVIRONMENT_TABLE) uniform usamplerBuffer environmentQuads; // light/environment.h
+layout(set = 0, binding = BINDING_ENVIRONMENT_MAP) uniform utextureBuffer environmentMap; // texel and scale of each cell
+layout(set = 0, binding = BINDING_ENVIRONMENT_TABLE) uniform utextureBuffer environmentQuads; // light/environment.h
 
 // The map turned by --env-rotation: what was in direction phi is in direction phi - rotation then.
 vec2 environmentPoint(FrameParameters frame, vec3 wi) {

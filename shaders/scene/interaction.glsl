@@ -8,7 +8,7 @@
 #include "shared/scene.h"
 #include "shared/wavefront.h"
 
-layout(set = 0, binding = BINDING_TRIANGLE_NORMALS) uniform usamplerBuffer triangleNormals;
+layout(set = 0, binding = BINDING_TRIANGLE_NORMALS) uniform utextureBuffer triangleNormals;
 
 struct Interaction {
     vec3 p;

@@ -9,7 +9,7 @@
 #include "shared/bindings.h"
 #include "shared/scene.h"
 
-layout(set = 0, binding = BINDING_LIGHTS) uniform usamplerBuffer lights;
+layout(set = 0, binding = BINDING_LIGHTS) uniform utextureBuffer lights;
 
 LightRecord fetchLight(uint index) {
     const uvec4 l = texelFetch(lights, int(index));

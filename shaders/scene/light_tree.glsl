@@ -4,7 +4,7 @@
 #include "scene/receiver.glsl"
 #include "shared/bindings.h"
 
-layout(set = 0, binding = BINDING_LIGHT_TREE) uniform usamplerBuffer lightTree; // kLightTreeTexels a node
+layout(set = 0, binding = BINDING_LIGHT_TREE) uniform utextureBuffer lightTree; // kLightTreeTexels a node
 
 LightTreeRecord fetchLightTreeNode(uint index) {
     const uvec4 a = texelFetch(lightTree, int(kLightTreeTexels * index));

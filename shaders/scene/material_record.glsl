@@ -3,7 +3,7 @@
 #include "shared/bindings.h"
 #include "shared/scene.h"
 
-layout(set = 0, binding = BINDING_MATERIALS) uniform usamplerBuffer materials;
+layout(set = 0, binding = BINDING_MATERIALS) uniform utextureBuffer materials;
 
 uvec4 materialTexel(uint index, uint texel) {
     return texelFetch(materials, int(kMaterialTexels * index + texel));

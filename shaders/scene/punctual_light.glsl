@@ -4,7 +4,7 @@
 #include "shared/scene.h"
 #include "shared/wavefront.h"
 
-layout(set = 0, binding = BINDING_PUNCTUALS) uniform usamplerBuffer punctuals;
+layout(set = 0, binding = BINDING_PUNCTUALS) uniform utextureBuffer punctuals;
 
 PunctualRecord fetchPunctual(uint index) {
     const uvec4 a = texelFetch(punctuals, int(3u * index));

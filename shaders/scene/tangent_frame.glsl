@@ -5,7 +5,7 @@
 #include "shared/surface_id.h"
 #include "shared/texture.h"
 
-layout(set = 0, binding = BINDING_TRIANGLE_TANGENTS) uniform usamplerBuffer triangleTangents; // one a triangle
+layout(set = 0, binding = BINDING_TRIANGLE_TANGENTS) uniform utextureBuffer triangleTangents; // one a triangle
 
 TriangleTangents fetchTriangleTangents(uint triangle) {
     const uvec4 t = texelFetch(triangleTangents, int(triangle));

@@ -4,9 +4,9 @@
 #include "shared/bindings.h"
 #include "shared/texture.h"
 
-layout(set = 0, binding = BINDING_PICTURES) uniform usamplerBuffer pictures;
-layout(set = 0, binding = BINDING_TEXTURES) uniform usamplerBuffer textures; // kTextureTexels each
-layout(set = 0, binding = BINDING_TRIANGLE_UVS) uniform usamplerBuffer triangleUvs;
+layout(set = 0, binding = BINDING_PICTURES) uniform utextureBuffer pictures;
+layout(set = 0, binding = BINDING_TEXTURES) uniform utextureBuffer textures; // kTextureTexels each
+layout(set = 0, binding = BINDING_TRIANGLE_UVS) uniform utextureBuffer triangleUvs;
 
 TextureRecord fetchTexture(uint index) {
     const int texel = int(index * kTextureTexels);

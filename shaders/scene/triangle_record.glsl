@@ -2,7 +2,7 @@
 #include "shared/bindings.h"
 #include "shared/triangle.h"
 
-layout(set = 0, binding = BINDING_TRIANGLES) uniform usamplerBuffer triangles; // kTriangleTexels each
+layout(set = 0, binding = BINDING_TRIANGLES) uniform utextureBuffer triangles; // kTriangleTexels each
 
 TriangleRecord loadTriangle(uint record) {
     const int texel = int(record * kTriangleTexels);

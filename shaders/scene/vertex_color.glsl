@@ -3,7 +3,7 @@
 #include "shared/surface_id.h"
 #include "shared/texture.h"
 
-layout(set = 0, binding = BINDING_TRIANGLE_COLORS) uniform usamplerBuffer triangleColors; // kColorTexels a triangle
+layout(set = 0, binding = BINDING_TRIANGLE_COLORS) uniform utextureBuffer triangleColors; // kColorTexels a triangle
 
 vec4 unpackColor(uvec2 words) {
     return vec4(unpackUnorm2x16(words.x), unpackUnorm2x16(words.y));

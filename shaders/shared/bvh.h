@@ -24,7 +24,6 @@ LAVALIGHT_SHARED_BEGIN
 
 SHARED_CONST uint kNodeTexels = 5u;
 SHARED_CONST uint kBvhWidth = 8u;
-SHARED_CONST uint kMaxTexels = 134217728u; // Vulkan devices' usual maxTexelBufferElements, lavapipe's too
 
 // Traversal keeps a node's index and a bit for each of its children in one word.
 SHARED_CONST uint kMaxNodes = 16777216u;

@@ -1,4 +1,4 @@
-// Layout of the exact film: fixed-point sums per pixel, stored word by word over a band.
+// Layout of the exact film: planes of fixed-point sums per pixel, stored word by word over a band.
 #ifndef LAVALIGHT_SHARED_FILM_H
 #define LAVALIGHT_SHARED_FILM_H
 
@@ -6,20 +6,67 @@
 
 LAVALIGHT_SHARED_BEGIN
 
-// Sum of L: 96 bits, the lowest worth 2^-48. A sample of 1e-6 keeps 28 significant bits; 2^28 samples of 1e6 fit.
+// Sum of values without sign: 96 bits, the lowest worth 2^-48. A sample of 1e-6 keeps 28 significant bits; 2^28 samples
+// of 1e6 fit. What leaves the range stays at the largest sum.
 SHARED_CONST uint kSumWords = 3u;
 SHARED_CONST int kSumLowestExponent = -48;
-// Sum of L^2: 128 bits, the lowest worth 2^-64. (1e-6)^2 keeps 24 bits; 2^24 samples of (1e6)^2 fit.
+// Sum of signed values: two's complement of 128 bits in the same unit. Samples are limited to +-kMostSigned = 2^47, so
+// that 2^32 of them, which is all that a pixel counts, never leave the range: a sum that saturated on its way would
+// depend on the order of its samples, as the next one may lead back.
+SHARED_CONST uint kSignedSumWords = 4u;
+SHARED_CONST float kMostSigned = 140737488355328.0f;
+// Sum of squares: 128 bits, the lowest worth 2^-64. (1e-6)^2 keeps 24 bits; 2^24 samples of (1e6)^2 fit.
 SHARED_CONST uint kSquareWords = 4u;
 SHARED_CONST int kSquareLowestExponent = -64;
 
-// Word planes of a band's film, each as long as the band has pixels: per channel the sum's words, then the square's,
-// lowest first; last the sample count.
+// A plane: what samples have of one kind. Its words hold one component after another, each the sum's words, then the
+// square's, lowest first.
+struct FilmPlane {
+    uint components; // 1 to 3
+    uint isSigned;   // 0: negative values are counted, and taken for 0
+    uint hasSquares; // 0: there is no variance
+};
+
+SHARED_FUNCTION uint sumWordsOf(FilmPlane plane) {
+    return plane.isSigned != 0u ? kSignedSumWords : kSumWords;
+}
+
+SHARED_FUNCTION uint componentWordsOf(FilmPlane plane) {
+    return sumWordsOf(plane) + (plane.hasSquares != 0u ? kSquareWords : 0u);
+}
+
+SHARED_FUNCTION uint wordsOf(FilmPlane plane) {
+    return plane.components * componentWordsOf(plane);
+}
+
+// All planes that there are, a row each: name of the layer, channels in EXR files, components, isSigned, hasSquares. A
+// film has the colour and those that were asked for, in this order; shaders/kernels/accumulate.comp says what fills them.
+#define FILM_PLANES(PLANE) \
+    PLANE("color", "R,G,B", 3u, 0u, 1u)
+
+// Numbers of the rows.
+SHARED_CONST uint kColorPlane = 0u;
+
+#define FILM_PLANE_SHAPE(name, channels, components, isSigned, hasSquares) {components, isSigned, hasSquares},
+#define FILM_PLANE_COUNT(name, channels, components, isSigned, hasSquares) + 1u
+SHARED_CONST FilmPlane kFilmPlanes[] = {FILM_PLANES(FILM_PLANE_SHAPE)};
+SHARED_CONST uint kFilmPlaneCount = 0u FILM_PLANES(FILM_PLANE_COUNT);
+
+// Word planes of a band's film, each as long as the band has pixels: its planes, and last the number of samples.
 //
-//   R.sum[3] R.square[4]  G.sum[3] G.square[4]  B.sum[3] B.square[4]  count
-SHARED_CONST uint kChannelWords = kSumWords + kSquareWords;
-SHARED_CONST uint kCountPlane = 3u * kChannelWords;
-SHARED_CONST uint kFilmWords = kCountPlane + 1u;
+//   R.sum[3] R.square[4]  G.sum[3] G.square[4]  B.sum[3] B.square[4]  ...  count
+//
+// `asked`: a film's planes, bit i for row i.
+SHARED_FUNCTION uint firstWordOf(uint plane, uint asked) {
+    uint words = 0u;
+    for (uint i = 0u; i < plane; ++i)
+        words += (asked >> i & 1u) != 0u ? wordsOf(kFilmPlanes[i]) : 0u;
+    return words;
+}
+
+SHARED_FUNCTION uint countWordOf(uint asked) {
+    return firstWordOf(kFilmPlaneCount, asked);
+}
 
 // 64-bit counts of what happened, as pairs of words (low, high).
 SHARED_CONST uint kTallyDropped = 0u;       // samples with NaN or infinity: counted, never added
@@ -28,7 +75,9 @@ SHARED_CONST uint kTallyCutPaths = 2u;      // paths that --max-bounces ended wh
 SHARED_CONST uint kTallyCutThroughput = 3u; // sum of their mean throughput, in units of 2^-16
 SHARED_CONST uint kTallyOverlaps = 4u;      // paths that were within two solids at once
 SHARED_CONST uint kTallyOverlapPair = 5u;   // no count: numbers of the meshes of two such solids, 16 bits each
-SHARED_CONST uint kTallyCount = 6u;
+SHARED_CONST uint kTallyNegative = 6u;      // samples below 0 in a plane without sign, which counted as 0 there
+SHARED_CONST uint kTallyLimited = 7u;       // values that were limited to +-kMostSigned
+SHARED_CONST uint kTallyCount = 8u;
 
 LAVALIGHT_SHARED_END
 

@@ -50,6 +50,7 @@ struct FrameParameters {
 #define CONSTANT_COUNT_VISITS 8 // of traversal (scene/intersect.glsl)
 #define CONSTANT_MULTIPLE_SCATTERING 9
 #define CONSTANT_TEXTURE_FILTER 10
+#define CONSTANT_FILM_PLANES 12 // of the film (scene/film.glsl)
 
 SHARED_CONST uint kProjectionPerspective = 0u;
 SHARED_CONST uint kProjectionOrthographic = 1u;

@@ -1,7 +1,8 @@
-// What the tonemap kernel is told: the curve from radiance to the display, and where in the film it is.
+// What the tonemap kernel is told: the curve from radiance to the display, and which plane of the film it shows.
 #ifndef LAVALIGHT_SHARED_TONE_H
 #define LAVALIGHT_SHARED_TONE_H
 
+#include "shared/film.h"
 #include "shared/types.h"
 
 LAVALIGHT_SHARED_BEGIN
@@ -11,6 +12,9 @@ struct ToneRange {
     uint bandPixels; // of the film at hand
     uint firstPixel; // of this dispatch, in the band
     float scale;     // of radiance: 2^exposure
+    uint countWord;  // index of the word plane that counts samples
+    uint firstWord;  // index of the first word plane of the plane that is shown
+    FilmPlane plane;
 };
 
 // A specialisation constant: the curve picks code.

@@ -1,4 +1,4 @@
-// The one place where GLSL and C++ differ: the names of scalar and vector types in the shared headers.
+// The one place where GLSL and C++ differ: how the shared headers name scalar and vector types, constants and functions.
 #ifndef LAVALIGHT_SHARED_TYPES_H
 #define LAVALIGHT_SHARED_TYPES_H
 
@@ -9,8 +9,8 @@
 
 #define LAVALIGHT_SHARED_BEGIN namespace lavalight {
 #define LAVALIGHT_SHARED_END }
-#define SHARED_CONST constexpr
-#define SHARED_FUNCTION constexpr
+#define SHARED_CONST inline constexpr
+#define SHARED_FUNCTION [[nodiscard]] constexpr
 
 LAVALIGHT_SHARED_BEGIN
 using uint = uint32_t;

@@ -30,8 +30,8 @@ struct Bvh {
 // beyond kMaxCoordinate, and for scenes beyond requireBvhFits.
 [[nodiscard]] Bvh buildBvh(std::span<const Triangle> triangles, const BvhConfig& config = {});
 
-// Throws Error, naming the figure, unless that many leaf triangles fit into a texel buffer of kMaxTexels, and
-// nodes are at most kMaxNodes.
+// Throws Error, naming the figure, unless that many leaf triangles fit into a texel buffer of kMostTexels,
+// and nodes are at most kMaxNodes.
 void requireBvhFits(uint64_t leafTriangles, uint64_t nodes);
 
 } // namespace lavalight

@@ -12,7 +12,7 @@
 #include "accel/presplit.h"
 #include "base/error.h"
 #include "base/log.h"
-#include "image/texel_limit.h"
+#include "image/pixel_limit.h"
 #include "shared/triangle.h"
 
 namespace lavalight {
@@ -125,12 +125,12 @@ Bvh buildNonEmpty(std::span<const Triangle> triangles, const Bounds& bounds, con
 } // namespace
 
 void requireBvhFits(uint64_t leafTriangles, uint64_t nodes) {
-    if (leafTriangles * kTriangleTexels > kMaxTexels)
+    if (leafTriangles * kTriangleTexels > kMostTexels)
         throw Error(
             fmt::format("cannot build the BVH: {} leaf triangles exceed the {} that fit into a texel buffer: "
                         "simplify the scene",
-                        leafTriangles, kMaxTexels / kTriangleTexels));
-    static_assert(kMaxNodes * kNodeTexels <= kMaxTexels && kMaxTexels == kMostBufferTexels);
+                        leafTriangles, kMostTexels / kTriangleTexels));
+    static_assert(kMaxNodes * kNodeTexels <= kMostTexels);
     if (nodes > kMaxNodes)
         throw Error(fmt::format(
             "cannot build the BVH: {} nodes exceed the {} that traversal can number: simplify the scene",

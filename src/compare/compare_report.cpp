@@ -49,8 +49,8 @@ Json exposuresJson(const ComparedImage& image, const ComparedImage& reference) {
     for (const int stops : kStops)
         if (stops == 0 || !image.isDisplayed)
             exposures.push_back({{"stops", stops},
-                                 {"image", dataUri(displayPng(image.content.radiance, stops))},
-                                 {"reference", dataUri(displayPng(reference.content.radiance, stops))}});
+                                 {"image", dataUri(displayPng(image.content.radiance(), stops))},
+                                 {"reference", dataUri(displayPng(reference.content.radiance(), stops))}});
     return exposures;
 }
 

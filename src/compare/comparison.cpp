@@ -35,23 +35,18 @@ Image readPicture(const std::string& path, std::string_view bytes) {
     }
 }
 
-Estimate estimateOf(const ExrFile& file) {
-    Estimate estimate{&file.radiance, nullptr, {}};
-    if (file.variance)
-        estimate.variance = &*file.variance;
-    if (file.sampleCounts)
-        estimate.sampleCounts = *file.sampleCounts;
-    return estimate;
+Estimate estimateOf(const Layer& layer, const std::vector<uint32_t>& sampleCounts) {
+    return {&layer.mean, layer.variance ? &*layer.variance : nullptr, sampleCounts};
 }
 
-std::optional<ZTests> testNoise(const ExrFile& image, const ExrFile& reference) {
-    if (!image.variance && !reference.variance)
+std::optional<ZTests> testNoise(const Estimate& image, const Estimate& reference) {
+    if (image.variance == nullptr && reference.variance == nullptr)
         return std::nullopt;
-    const uint32_t whole = std::max(image.radiance.width, image.radiance.height);
-    const auto test = [&](uint32_t tileSize) {
-        return welchTest(estimateOf(image), estimateOf(reference), tileSize);
-    };
-    const char* of = !reference.variance ? "image" : !image.variance ? "reference" : "both";
+    const uint32_t whole = std::max(image.mean->width, image.mean->height);
+    const auto test = [&](uint32_t tileSize) { return welchTest(image, reference, tileSize); };
+    const char* of = reference.variance == nullptr ? "image"
+                     : image.variance == nullptr   ? "reference"
+                                                   : "both";
     return ZTests{of,
                   {{{"each pixel", "pixels", 1, test(1)},
                     {"16 x 16 pixels", "tiles", kZTileSize, test(kZTileSize)},
@@ -59,8 +54,8 @@ std::optional<ZTests> testNoise(const ExrFile& image, const ExrFile& reference) 
 }
 
 void requireComparable(const ComparedImage& image, const ComparedImage& reference) {
-    const Image& a = image.content.radiance;
-    const Image& b = reference.content.radiance;
+    const Image& a = image.content.radiance();
+    const Image& b = reference.content.radiance();
     if (image.isDisplayed != reference.isDisplayed)
         throw Error(
             fmt::format("cannot compare {} with {}: one holds radiance, the other what a display shows of it",
@@ -99,7 +94,7 @@ Verdict flipVerdict(const Comparison& c, double limit) {
             fmt::format("{} with {:.3f}", pixelText(worst, c.width), c.flip.errors[worst])};
 }
 
-Verdict zVerdict(const ZTests& tests, double significance) {
+Verdict zVerdict(const ZTests& tests, double significance, const std::vector<std::string>& channels) {
     const ZTestLevel& level = tests.worst();
     const WelchTest& test = level.test;
     const std::string size = level.tileSize == 1 ? "" : fmt::format("{} from ", level.name);
@@ -107,13 +102,14 @@ Verdict zVerdict(const ZTests& tests, double significance) {
                                   ? level.name
                                   : fmt::format("{}pixel {}, {}", size, test.worstTile.x, test.worstTile.y);
     return {"Z-test", tests.p(), significance, tests.p() >= significance,
-            fmt::format("{} in {}: |z| {:.2f}", place, kChannelNames[test.worstChannel], test.worstAbsZ)};
+            fmt::format("{} in {}: |z| {:.2f}", place, channels[static_cast<size_t>(test.worstChannel)],
+                        test.worstAbsZ)};
 }
 
 Criteria completed(Criteria criteria, const ComparedImage& image, const ComparedImage& reference) {
     if (criteria.relMse || criteria.flip || criteria.significance)
         return criteria;
-    if (image.content.variance && reference.content.variance)
+    if (image.content.hasVariance() && reference.content.hasVariance())
         criteria.significance = kDefaultSignificance;
     else
         criteria.relMse = kDefaultRelMse;
@@ -128,13 +124,33 @@ std::vector<Verdict> judge(const Comparison& c, const Criteria& criteria, const 
             throw Error(
                 "no Z-test: neither image has variances; compare EXR files of lavalight render, or give "
                 "--threshold or --flip-threshold");
-        verdicts.push_back(zVerdict(*c.zTests, *criteria.significance));
+        verdicts.push_back(zVerdict(*c.zTests, *criteria.significance, colorLayer({}, {}).channels));
     }
     if (criteria.relMse)
         verdicts.push_back(relMseVerdict(c, *criteria.relMse, image, reference));
     if (criteria.flip)
         verdicts.push_back(flipVerdict(c, *criteria.flip));
     return verdicts;
+}
+
+// Components that the layer lacks are 0 in both, and add nothing to sums over three channels.
+LayerComparison compareLayers(const Estimate& image, const Estimate& reference, const Layer& layer) {
+    const double share = 3.0 / static_cast<double>(layer.channels.size());
+    return {layer.name, layer.channels, rmse(*image.mean, *reference.mean) * std::sqrt(share),
+            relMse(*image.mean, *reference.mean) * share, testNoise(image, reference)};
+}
+
+void judgeLayer(const LayerComparison& layer, const Criteria& criteria, std::vector<Verdict>& verdicts) {
+    const bool isTested = criteria.significance && layer.zTests;
+    if (isTested) {
+        verdicts.push_back(zVerdict(*layer.zTests, *criteria.significance, layer.channels));
+        verdicts.back().criterion += " of " + layer.name;
+    }
+    if (criteria.relMse || !isTested) {
+        const double limit = criteria.relMse.value_or(kDefaultRelMse);
+        const std::string criterion = fmt::format("relMSE of {}", layer.name);
+        verdicts.push_back({criterion, layer.relMse, limit, layer.relMse <= limit, ""}); // NaN is not
+    }
 }
 
 } // namespace
@@ -144,7 +160,7 @@ ComparedImage readCompared(const std::string& path) {
     if (!isPicture(bytes))
         return {path, readExr(path), false};
     ComparedImage image{path, {}, true};
-    image.content.radiance = readPicture(path, bytes);
+    image.content.layers.push_back(colorLayer(readPicture(path, bytes), std::nullopt));
     return image;
 }
 
@@ -164,8 +180,8 @@ bool Comparison::isEqual() const {
 
 Comparison compare(const ComparedImage& image, const ComparedImage& reference, const Criteria& criteria) {
     requireComparable(image, reference);
-    const Image& a = image.content.radiance;
-    const Image& b = reference.content.radiance;
+    const Image& a = image.content.radiance();
+    const Image& b = reference.content.radiance();
     Comparison result;
     result.width = a.width;
     result.height = a.height;
@@ -176,8 +192,18 @@ Comparison compare(const ComparedImage& image, const ComparedImage& reference, c
     result.nonFiniteImage = countNonFinite(a);
     result.isHdrFlip = !image.isDisplayed;
     result.flip = result.isHdrFlip ? flipOfRadiance(a, b) : flip(a, b);
-    result.zTests = testNoise(image.content, reference.content);
-    result.verdicts = judge(result, completed(criteria, image, reference), a, b);
+    result.zTests = testNoise(estimateOf(image.content.layers.front(), image.content.sampleCounts),
+                              estimateOf(reference.content.layers.front(), reference.content.sampleCounts));
+    const Criteria asked = completed(criteria, image, reference);
+    result.verdicts = judge(result, asked, a, b);
+    for (const Layer& layer : image.content.layers) {
+        const Layer* same = reference.content.find(layer.name);
+        if (layer.name == kColorLayer || same == nullptr)
+            continue;
+        result.layers.push_back(compareLayers(estimateOf(layer, image.content.sampleCounts),
+                                              estimateOf(*same, reference.content.sampleCounts), layer));
+        judgeLayer(result.layers.back(), asked, result.verdicts);
+    }
     return result;
 }
 

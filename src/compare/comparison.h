@@ -12,6 +12,7 @@
 #include "compare/welch.h"
 #include "image/exr.h"
 #include "image/image.h"
+#include "image/rendering.h"
 
 namespace lavalight {
 
@@ -26,7 +27,8 @@ struct ComparedImage {
 [[nodiscard]] ComparedImage readCompared(const std::string& path);
 
 // What is asked of the image to be equal to the reference. With none given: the Z-test where both have
-// variances, else relMSE of kDefaultRelMse.
+// variances, else relMSE of kDefaultRelMse. Layers besides the colour are asked for the same, but for FLIP;
+// those without variances for relMSE in place of the Z-test.
 struct Criteria {
     std::optional<double> relMse; // at most
     std::optional<double> flip;   // mean FLIP, at most
@@ -46,6 +48,8 @@ struct Verdict {
     double limit = 0.0;
     bool passed = false;
     std::string where; // the place that is furthest from equal
+
+    [[nodiscard]] bool isZTest() const { return criterion.starts_with("Z-test"); }
 };
 
 // The Z-test of each pixel, of tiles, and of the whole image.
@@ -70,6 +74,15 @@ struct ZTests {
     [[nodiscard]] const ZTestLevel& worst() const; // the level that it is of
 };
 
+// A layer that both have besides the colour.
+struct LayerComparison {
+    std::string name;
+    std::vector<std::string> channels;
+    double rmse = 0.0;
+    double relMse = 0.0;
+    std::optional<ZTests> zTests; // absent if neither has variances of it
+};
+
 struct Comparison {
     uint32_t width = 0;
     uint32_t height = 0;
@@ -81,7 +94,8 @@ struct Comparison {
     bool isHdrFlip = false;
     FlipMap flip;
     std::optional<ZTests> zTests; // absent if neither image has variances
-    std::vector<Verdict> verdicts;
+    std::vector<LayerComparison> layers;
+    std::vector<Verdict> verdicts; // of the colour, then of each layer
 
     [[nodiscard]] bool isEqual() const; // whether all verdicts are
 };

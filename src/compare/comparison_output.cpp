@@ -30,7 +30,7 @@ std::string zTestText(const std::optional<ZTests>& tests) {
 
 std::string verdictLine(const Verdict& v) {
     return fmt::format("{:<18}{}: {:.6g}, {} {:g}{}\n", v.criterion, v.passed ? "equal" : "different",
-                       v.value, v.criterion == "Z-test" ? "at least" : "at most", v.limit,
+                       v.value, v.isZTest() ? "at least" : "at most", v.limit,
                        v.passed || v.where.empty() ? "" : fmt::format("; furthest: {}", v.where));
 }
 
@@ -89,6 +89,10 @@ std::string comparisonText(const Comparison& c) {
     if (c.nonFiniteImage > 0)
         text += fmt::format("NaN or infinite   {} pixels of the image\n", c.nonFiniteImage);
     text += zTestText(c.zTests);
+    for (const LayerComparison& layer : c.layers)
+        text +=
+            fmt::format("layer {:<12}RMSE {:.6g}, relMSE {:.6g}{}\n", layer.name, layer.rmse, layer.relMse,
+                        layer.zTests ? fmt::format(", p of the Z-test {:.2g}", layer.zTests->p()) : "");
     text += fmt::format("\n{}\n", c.isEqual() ? "EQUAL" : "DIFFERENT");
     for (const Verdict& verdict : c.verdicts)
         text += verdictLine(verdict);
@@ -109,6 +113,9 @@ nlohmann::ordered_json comparisonJson(const Comparison& c) {
         {"nonFinitePixels", c.nonFiniteImage},
         {"flip", flipJson(c)},
         {"zTest", zTestsJson(c.zTests)}};
+    for (const LayerComparison& layer : c.layers)
+        json["layers"][layer.name] = {
+            {"rmse", layer.rmse}, {"relMse", layer.relMse}, {"zTest", zTestsJson(layer.zTests)}};
     for (const Verdict& verdict : c.verdicts)
         json["criteria"].push_back(verdictJson(verdict));
     return json;

@@ -171,32 +171,52 @@ ZTest tileZTest(const Image& a, const Image& varianceA, const Image& b, const Im
     return result;
 }
 
-Rendering downsample(const Rendering& rendering, uint32_t factor) {
-    assert(factor > 0 && !rendering.radiance.pixels.empty());
-    const Image& source = rendering.radiance;
-    requireSameSize(source, rendering.variance);
-    Rendering result;
-    result.radiance = Image(divideUp(source.width, factor), divideUp(source.height, factor));
-    result.variance = Image(result.radiance.width, result.radiance.height);
-    result.sampleCounts.reserve(result.radiance.pixels.size());
-    for (uint32_t y = 0; y < result.radiance.height; ++y)
-        for (uint32_t x = 0; x < result.radiance.width; ++x) {
-            glm::dvec3 radiance(0.0);
-            glm::dvec3 variance(0.0);
-            uint64_t samples = 0;
+namespace {
+
+// Sums over boxes, divided by pixels^power.
+Image boxMeans(const Image& source, uint32_t factor, int power) {
+    Image result(divideUp(source.width, factor), divideUp(source.height, factor));
+    for (uint32_t y = 0; y < result.height; ++y)
+        for (uint32_t x = 0; x < result.width; ++x) {
+            glm::dvec3 sum(0.0);
             double n = 0.0;
             forEachInBox(source, glm::uvec2(x, y) * factor, factor, [&](size_t i) {
-                radiance += glm::dvec3(source.pixels[i]);
-                variance += glm::dvec3(rendering.variance.pixels[i]);
-                samples += rendering.sampleCounts[i];
+                sum += glm::dvec3(source.pixels[i]);
                 n += 1.0;
             });
-            const size_t target = result.sampleCounts.size();
-            result.radiance.pixels[target] = glm::vec3(radiance / n);
-            result.variance.pixels[target] = glm::vec3(variance / (n * n));
-            result.sampleCounts.push_back(
+            result.pixels[size_t{y} * result.width + x] = glm::vec3(sum / (power == 2 ? n * n : n));
+        }
+    return result;
+}
+
+std::vector<uint32_t> boxCounts(const Image& size, const std::vector<uint32_t>& counts, uint32_t factor) {
+    std::vector<uint32_t> result;
+    for (uint32_t y = 0; y < size.height; y += factor)
+        for (uint32_t x = 0; x < size.width; x += factor) {
+            uint64_t samples = 0;
+            forEachInBox(size, {x, y}, factor, [&](size_t i) { samples += counts[i]; });
+            result.push_back(
                 static_cast<uint32_t>(std::min<uint64_t>(samples, std::numeric_limits<uint32_t>::max())));
         }
+    return result;
+}
+
+} // namespace
+
+Rendering downsample(const Rendering& rendering, uint32_t factor) {
+    assert(factor > 0 && !rendering.radiance().pixels.empty());
+    Rendering result;
+    for (const Layer& layer : rendering.layers) {
+        requireSameSize(rendering.radiance(), layer.mean);
+        Layer& small = result.layers.emplace_back(
+            Layer{layer.name, layer.channels, boxMeans(layer.mean, factor, 1), std::nullopt});
+        if (!layer.variance)
+            continue;
+        requireSameSize(rendering.radiance(), *layer.variance);
+        small.variance = boxMeans(*layer.variance, factor, 2);
+    }
+    if (!rendering.sampleCounts.empty())
+        result.sampleCounts = boxCounts(rendering.radiance(), rendering.sampleCounts, factor);
     return result;
 }
 

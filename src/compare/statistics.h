@@ -7,6 +7,7 @@
 #include <glm/glm.hpp>
 
 #include "image/image.h"
+#include "image/rendering.h"
 
 namespace lavalight {
 
@@ -62,8 +63,8 @@ struct ZTest {
                               uint32_t tileSize);
 
 // Boxes of factor x factor pixels averaged to one; boxes at the right and lower edges may be smaller. For a
-// box of n pixels: radiance = sum / n, variance of the mean = sum(variance) / n^2, samples = sum, at most
-// 2^32 - 1.
+// box of n pixels and each layer: mean = sum / n, variance of the mean = sum(variance) / n^2, samples = sum,
+// at most 2^32 - 1.
 [[nodiscard]] Rendering downsample(const Rendering& rendering, uint32_t factor);
 
 } // namespace lavalight

@@ -8,15 +8,16 @@
 
 #include "base/error.h"
 #include "device_scene/octahedral.h"
-#include "shared/bvh.h"
+#include "image/pixel_limit.h"
 
 namespace lavalight {
 namespace {
 
 void requireTexels(uint64_t texels, const char* what, const char* remedy) {
-    if (texels > kMaxTexels)
+    if (texels > kMostTexels)
         throw Error(fmt::format("{} need {:.1f} MiB on the device, but one buffer holds {:.1f} MiB: {}", what,
-                                static_cast<double>(texels) / 65536.0, kMaxTexels / 65536.0, remedy));
+                                static_cast<double>(texels) / 65536.0,
+                                static_cast<double>(kMostTexels) / 65536.0, remedy));
 }
 
 uint64_t elementsOf(const Picture& picture) {

@@ -17,6 +17,13 @@ std::vector<LedgerEntry> tallyEntries(const FilmTallies& tallies) {
     if (tallies.droppedSamples > 0)
         ledger.push_back(
             {"dropped-samples", fmt::format("{} samples were not finite", tallies.droppedSamples)});
+    if (tallies.negativeSamples > 0)
+        ledger.push_back({"negative-samples", fmt::format("{} samples were negative, and counted as 0",
+                                                          tallies.negativeSamples)});
+    if (tallies.limitedValues > 0)
+        ledger.push_back(
+            {"limited-values",
+             fmt::format("{} values of layers were limited to the film's range", tallies.limitedValues)});
     if (tallies.saturatedSums > 0)
         ledger.push_back(
             {"saturated-sums", fmt::format("{} sums left the film's range", tallies.saturatedSums)});

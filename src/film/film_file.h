@@ -14,7 +14,7 @@ namespace lavalight {
 
 struct FilmFile {
     RawFilm film;
-    SampleRanges ranges; // that it is to hold, or holds
+    SampleRanges ranges; // samples that it is to hold, or holds
     FilmProgress progress;
     Metadata metadata; // of exrMetadata(), and kSettingsLedger
 
@@ -27,7 +27,9 @@ inline constexpr const char* kSettingsLedger = "film:settings-ledger";
 // The channels of writeExr, and those of the film, 32-bit unsigned:
 //   raw.R.sum.0 1 2       sum of the samples' L, words from the lowest, the lowest bit worth 2^-48
 //   raw.R.square.0 1 2 3  sum of their L^2, the lowest bit worth 2^-64
-// and so for G and B. A hash of the film and the header makes damage known. Throws Error.
+// and so for G and B, and for the channels of each further layer; sums of layers with negative values are of
+// four words, in two's complement. The header names the film's layout; without it, colour is all there is. A
+// hash of the film and the header makes damage known. Throws Error.
 void writeFilmFile(const std::filesystem::path& path, const FilmFile& file);
 
 // Throws Error for whatever is no such file, or was damaged.

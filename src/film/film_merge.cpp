@@ -27,8 +27,13 @@ void requireOneImage(const NamedFilm& a, const NamedFilm& b) {
         refuse(fmt::format("they differ in {}", difference));
     if (a.file.film.width != b.file.film.width || a.file.film.height != b.file.film.height)
         refuse("they differ in size");
+    if (!(a.file.film.layout == b.file.film.layout))
+        refuse(
+            fmt::format("they differ in layers ({} in {}; {} in {}); try to render the parts with the same "
+                        "layers",
+                        textOf(a.file.film.layout), a.name, textOf(b.file.film.layout), b.name));
     if (const auto both = overlapOf(a.file.ranges, b.file.ranges))
-        refuse(fmt::format("both hold the samples {}", textOf({*both})));
+        refuse(fmt::format("both hold the samples {}", textOf(SampleRanges{*both})));
 }
 
 // The ledger's words come from the settings, and from the tallies of all samples.

@@ -1,63 +1,70 @@
 #include "film/raw_film.h"
 
 #include <algorithm>
-#include <numeric>
-
 #include <cassert>
 #include <cmath>
+
 #include <fmt/format.h>
 
 namespace lavalight {
 namespace {
 
-// All planes of some pixels, and the way to one pixel's numbers in them.
+// Without samples, 0.
+double meanOf(double sum, uint32_t count) {
+    return count == 0 ? 0.0 : sum / count;
+}
+
+// The word planes of some pixels, and the way to one pixel's numbers in them.
 class PixelSums {
   public:
-    explicit PixelSums(std::span<const uint32_t> planes)
-        : planes_(planes), pixels_(planes.size() / kFilmWords) {}
+    PixelSums(std::span<const uint32_t> words, const FilmLayout& layout)
+        : words_(words), pixels_(words.size() / layout.words()), countWord_(layout.countWord()) {}
 
     [[nodiscard]] size_t pixels() const { return pixels_; }
-    [[nodiscard]] uint32_t count(size_t pixel) const { return planes_[kCountPlane * pixels_ + pixel]; }
-    [[nodiscard]] PixelEstimate channel(size_t pixel, uint32_t channel) const {
-        const uint32_t plane = channel * kChannelWords;
-        return estimate(value<kSumWords>(pixel, plane, kSumLowestExponent),
-                        value<kSquareWords>(pixel, plane + kSumWords, kSquareLowestExponent), count(pixel));
+    [[nodiscard]] uint32_t count(size_t pixel) const { return words_[countWord_ * pixels_ + pixel]; }
+    // Of the component whose words begin with `firstWord`.
+    [[nodiscard]] PixelEstimate component(size_t pixel, uint32_t firstWord, const FilmPlane& shape) const {
+        const double sum = shape.isSigned != 0
+                               ? fromSigned(number<kSignedSumWords>(pixel, firstWord), kSumLowestExponent)
+                               : fromFixed(number<kSumWords>(pixel, firstWord), kSumLowestExponent);
+        if (shape.hasSquares == 0)
+            return {meanOf(sum, count(pixel)), 0.0};
+        const auto square = number<kSquareWords>(pixel, firstWord + sumWordsOf(shape));
+        return estimate(sum, fromFixed(square, kSquareLowestExponent), count(pixel));
     }
 
   private:
     template <uint32_t Words>
-    [[nodiscard]] double value(size_t pixel, uint32_t plane, int lowestExponent) const {
-        std::array<uint32_t, Words> words;
+    [[nodiscard]] std::array<uint32_t, Words> number(size_t pixel, uint32_t firstWord) const {
+        std::array<uint32_t, Words> number;
         for (uint32_t i = 0; i < Words; ++i)
-            words[i] = planes_[(plane + i) * pixels_ + pixel];
-        return fromFixed(words, lowestExponent);
+            number[i] = words_[(firstWord + i) * pixels_ + pixel];
+        return number;
     }
 
-    std::span<const uint32_t> planes_;
+    std::span<const uint32_t> words_;
     size_t pixels_;
+    uint32_t countWord_;
 };
 
-// Numbers of several words, one word of all pixels after the other.
-struct NumberPlanes {
-    uint32_t firstPlane;
-    uint32_t words;
-};
-
-// As the kernels add (shaders/lib/fixed_point.glsl): what leaves the range stays at its largest value.
-// Returns how many of the sums are there.
-uint64_t addNumbers(RawFilm& sum, const RawFilm& more, NumberPlanes number) {
+// Adds as the kernels do (shaders/lib/film/fixed_point.glsl): what leaves the range of numbers without sign
+// stays at the largest value, and numbers in two's complement have room for all samples that can be counted.
+// Returns how many of the sums are at the largest value.
+uint64_t addNumbers(RawFilm& sum, const RawFilm& more, const FilmNumber& number) {
     const size_t pixels = sum.pixels();
     uint64_t saturated = 0;
     for (size_t pixel = 0; pixel < pixels; ++pixel) {
         uint64_t carry = 0;
         bool isLargest = true;
-        const auto at = [&](uint32_t word) { return (number.firstPlane + word) * pixels + pixel; };
+        const auto at = [&](uint32_t word) { return (number.firstWord + word) * pixels + pixel; };
         for (uint32_t word = 0; word < number.words; ++word) {
             carry += uint64_t{sum.words[at(word)]} + more.words[at(word)];
             sum.words[at(word)] = static_cast<uint32_t>(carry);
             isLargest = isLargest && sum.words[at(word)] == 0xffffffffu;
             carry >>= 32;
         }
+        if (number.isSigned) // the carry is the sign's, and -1 is no largest value
+            continue;
         for (uint32_t word = 0; carry != 0 && word < number.words; ++word)
             sum.words[at(word)] = 0xffffffffu;
         saturated += carry != 0 || isLargest ? 1 : 0;
@@ -68,8 +75,7 @@ uint64_t addNumbers(RawFilm& sum, const RawFilm& more, NumberPlanes number) {
 } // namespace
 
 uint64_t RawFilm::samples() const {
-    const auto counts = words.begin() + static_cast<ptrdiff_t>(kCountPlane * pixels());
-    return std::accumulate(counts, words.end(), uint64_t{0});
+    return totalOf(std::span(words).subspan(layout.countWord() * pixels()));
 }
 
 std::string samplesPerPixel(uint64_t samples, uint64_t pixels) {
@@ -86,19 +92,17 @@ FilmTallies readable(const RawTallies& counts) {
     tallies.overlaps = counts[kTallyOverlaps];
     const auto pair = static_cast<uint32_t>(counts[kTallyOverlapPair]);
     tallies.overlapping = {pair >> 16, pair & 0xffffu};
+    tallies.negativeSamples = counts[kTallyNegative];
+    tallies.limitedValues = counts[kTallyLimited];
     return tallies;
 }
 
 void add(RawFilm& sum, const RawFilm& more) {
-    assert(sum.width == more.width && sum.height == more.height);
+    assert(sum.width == more.width && sum.height == more.height && sum.layout == more.layout);
     uint64_t saturated = 0;
-    for (uint32_t channel = 0; channel < 3; ++channel) {
-        const uint32_t plane = channel * kChannelWords;
-        saturated += addNumbers(sum, more, {plane, kSumWords});
-        saturated += addNumbers(sum, more, {plane + kSumWords, kSquareWords});
-    }
-    const size_t firstCount = kCountPlane * sum.pixels();
-    for (size_t i = firstCount; i < firstCount + sum.pixels(); ++i)
+    for (const FilmNumber& number : sum.layout.numbers())
+        saturated += addNumbers(sum, more, number);
+    for (size_t i = sum.layout.countWord() * sum.pixels(); i < sum.words.size(); ++i)
         sum.words[i] += more.words[i];
     const uint64_t pair = std::max(sum.tallies[kTallyOverlapPair], more.tallies[kTallyOverlapPair]);
     for (size_t i = 0; i < kTallyCount; ++i)
@@ -107,23 +111,41 @@ void add(RawFilm& sum, const RawFilm& more) {
     sum.tallies[kTallySaturated] = saturated; // the same sums may be saturated in both
 }
 
-void resolvePixels(std::span<const uint32_t> planes, size_t firstPixel, Rendering& rendering) {
-    const PixelSums sums(planes);
-    for (size_t pixel = 0; pixel < sums.pixels(); ++pixel) {
+Rendering emptyRendering(const FilmLayout& layout, uint32_t width, uint32_t height) {
+    Rendering rendering;
+    for (const LayerPlane& plane : layout.planes()) {
+        Layer& layer = rendering.layers.emplace_back(
+            Layer{plane.name, plane.channels, Image(width, height), std::nullopt});
+        if (plane.hasSquares())
+            layer.variance.emplace(width, height);
+    }
+    rendering.sampleCounts.resize(size_t{width} * height);
+    return rendering;
+}
+
+void resolvePixels(std::span<const uint32_t> words, const FilmLayout& layout, size_t firstPixel,
+                   Rendering& rendering) {
+    const PixelSums sums(words, layout);
+    for (size_t pixel = 0; pixel < sums.pixels(); ++pixel)
         rendering.sampleCounts[firstPixel + pixel] = sums.count(pixel);
-        for (uint32_t channel = 0; channel < 3; ++channel) {
-            const PixelEstimate e = sums.channel(pixel, channel);
-            const auto at = static_cast<glm::length_t>(channel);
-            rendering.radiance.pixels[firstPixel + pixel][at] = static_cast<float>(e.mean);
-            rendering.variance.pixels[firstPixel + pixel][at] = static_cast<float>(e.varianceOfMean);
-        }
+    for (size_t plane = 0; plane < layout.planes().size(); ++plane) {
+        const FilmPlane& shape = layout.planes()[plane].shape;
+        Layer& layer = rendering.layers[plane];
+        for (size_t pixel = 0; pixel < sums.pixels(); ++pixel)
+            for (uint32_t c = 0; c < shape.components; ++c) {
+                const uint32_t word = layout.firstWord(plane) + c * componentWordsOf(shape);
+                const PixelEstimate e = sums.component(pixel, word, shape);
+                const auto at = static_cast<glm::length_t>(c);
+                layer.mean.pixels[firstPixel + pixel][at] = static_cast<float>(e.mean);
+                if (layer.variance)
+                    layer.variance->pixels[firstPixel + pixel][at] = static_cast<float>(e.varianceOfMean);
+            }
     }
 }
 
 Rendering resolve(const RawFilm& film) {
-    Rendering rendering{Image(film.width, film.height), Image(film.width, film.height),
-                        std::vector<uint32_t>(film.pixels())};
-    resolvePixels(film.words, 0, rendering);
+    Rendering rendering = emptyRendering(film.layout, film.width, film.height);
+    resolvePixels(film.words, film.layout, 0, rendering);
     return rendering;
 }
 
@@ -134,13 +156,25 @@ double fromFixed(std::span<const uint32_t> words, int lowestExponent) {
     return value;
 }
 
+// The words are made positive first: the sum of a large negative word and large positive ones would round.
+double fromSigned(std::span<const uint32_t> words, int lowestExponent) {
+    if ((words.back() & 0x80000000u) == 0)
+        return fromFixed(words, lowestExponent);
+    std::vector<uint32_t> opposite;
+    uint64_t carry = 1;
+    for (const uint32_t word : words) {
+        carry += uint32_t{~word};
+        opposite.push_back(static_cast<uint32_t>(carry));
+        carry >>= 32;
+    }
+    return -fromFixed(opposite, lowestExponent);
+}
+
 PixelEstimate estimate(double sum, double sumOfSquares, uint32_t count) {
-    if (count == 0)
-        return {};
-    const double n = count;
-    const double mean = sum / n;
-    if (count == 1)
+    const double mean = meanOf(sum, count);
+    if (count < 2)
         return {mean, 0.0};
+    const double n = count;
     return {mean, std::max(0.0, sumOfSquares / n - mean * mean) / (n - 1.0)};
 }
 

@@ -7,7 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "image/image.h"
+#include "film/film_layout.h"
+#include "image/rendering.h"
 #include "shared/film.h"
 
 namespace lavalight {
@@ -20,7 +21,9 @@ struct FilmTallies {
     double cutThroughput = 0.0; // mean over the cut paths
     uint64_t overlaps = 0;      // paths within two solids at once
     std::array<uint32_t, 2>
-        overlapping{}; // meshes of two such solids, counted from 1; 65535: there or beyond
+        overlapping{};            // meshes of two such solids, counted from 1; 65535: there or beyond
+    uint64_t negativeSamples = 0; // below 0 in a plane without sign, where they counted as 0
+    uint64_t limitedValues = 0;   // of planes with sign, limited to the film's range
 };
 
 // Counts as the kernels keep them, by kTally...
@@ -32,9 +35,9 @@ using RawTallies = std::array<uint64_t, kTallyCount>;
 struct RawFilm {
     uint32_t width = 0;
     uint32_t height = 0;
-    std::vector<uint32_t>
-        words; // kFilmWords planes in the order of shaders/shared/film.h, of all pixels each
+    std::vector<uint32_t> words; // layout.words() word planes in their order, of all pixels each
     RawTallies tallies{};
+    FilmLayout layout = colorLayout();
 
     [[nodiscard]] size_t pixels() const { return size_t{width} * height; }
     // Samples over all pixels.
@@ -52,16 +55,23 @@ struct FilmProgress {
     bool operator==(const FilmProgress&) const = default;
 };
 
-// Adds the samples of a film of the same size: the words are those of one film of all of them.
+// Adds the samples of a film of the same size and layout: the words are those of one film of all of them.
 void add(RawFilm& sum, const RawFilm& more);
 
+// A layer for each plane, named as it.
 [[nodiscard]] Rendering resolve(const RawFilm& film);
 
-// Writes the pixels of `planes`, which are those from `firstPixel` on, into a rendering of the whole image.
-void resolvePixels(std::span<const uint32_t> planes, size_t firstPixel, Rendering& rendering);
+// A rendering with a layer for each plane, all 0.
+[[nodiscard]] Rendering emptyRendering(const FilmLayout& layout, uint32_t width, uint32_t height);
+// Writes the pixels of `words`, which are those from `firstPixel` on, into such a rendering of the whole
+// image.
+void resolvePixels(std::span<const uint32_t> words, const FilmLayout& layout, size_t firstPixel,
+                   Rendering& rendering);
 
 // Value of a fixed-point number: `words` lowest first, the lowest bit worth 2^lowestExponent.
 [[nodiscard]] double fromFixed(std::span<const uint32_t> words, int lowestExponent);
+// Value of such a number in two's complement.
+[[nodiscard]] double fromSigned(std::span<const uint32_t> words, int lowestExponent);
 
 struct PixelEstimate {
     double mean = 0.0;

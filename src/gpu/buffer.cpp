@@ -18,24 +18,14 @@ constexpr uint64_t kTexelBytes = 16;
 [[maybe_unused]] constexpr uint64_t kMostUniformBytes = 16384; // what every Vulkan device allows
 constexpr vk::Format kTexelFormat = vk::Format::eR32G32B32A32Uint;
 
-vk::BufferUsageFlags usageFlags(BufferUse use) {
+vk::BufferUsageFlags usageFlags(BufferUse use, bool storesTexels) {
     using Usage = vk::BufferUsageFlagBits;
     const vk::BufferUsageFlags copies = Usage::eTransferSrc | Usage::eTransferDst;
-    if (use == BufferUse::texels)
+    if (use == BufferUse::texels && !storesTexels)
         return copies | Usage::eUniformTexelBuffer;
     if (use == BufferUse::uniform)
         return copies | Usage::eUniformBuffer;
     return copies | Usage::eStorageBuffer | Usage::eIndirectBuffer;
-}
-
-// Memory types, best first: what the host can map costs no staging copy, and on CPUs and integrated GPUs it
-// is the same memory.
-std::vector<vk::MemoryPropertyFlags> memoryWishes(BufferUse use) {
-    using Memory = vk::MemoryPropertyFlagBits;
-    const vk::MemoryPropertyFlags mappable = Memory::eHostVisible | Memory::eHostCoherent;
-    if (use == BufferUse::readback)
-        return {mappable | Memory::eHostCached, mappable};
-    return {mappable | Memory::eDeviceLocal, Memory::eDeviceLocal, mappable};
 }
 
 // Mesa 22.3's lavapipe takes two properties of a texel buffer for parts of a kernel's key that it means for
@@ -53,7 +43,7 @@ uint64_t allocatedBytes(uint64_t bytes, BufferUse use) {
 }
 
 void checkLimits(const Device& device, const std::string& name, uint64_t bytes, BufferUse use) {
-    const bool isTexels = use == BufferUse::texels;
+    const bool isTexels = use == BufferUse::texels && !device.storesTexels();
     const uint64_t most = isTexels ? device.limits().maxTexelBufferElements * kTexelBytes
                                    : device.limits().maxStorageBufferBytes;
     if (bytes > most)
@@ -68,37 +58,41 @@ Buffer::Buffer(Device& device, std::string name, uint64_t bytes, BufferUse use)
     : device_(&device), name_(std::move(name)), bytes_(bytes), use_(use) {
     assert(use != BufferUse::uniform || bytes <= kMostUniformBytes);
     checkLimits(device, name_, allocatedBytes(bytes, use), use);
+    create();
     allocate();
 }
 
+void Buffer::create() {
+    const vk::BufferCreateInfo info({}, allocatedBytes(bytes_, use_),
+                                    usageFlags(use_, device_->storesTexels()));
+    buffer_ = checked("create", name_, [&] { return vk::raii::Buffer(device_->handle(), info); });
+}
+
+// The driver may refuse memory that seems to be there, such as what other programs use.
 void Buffer::allocate() {
     const vk::raii::Device& device = device_->handle();
-    const uint64_t size = allocatedBytes(bytes_, use_);
-    buffer_ = checked("create", name_, [&] {
-        return vk::raii::Buffer(device, vk::BufferCreateInfo({}, size, usageFlags(use_)));
-    });
     const vk::MemoryRequirements needs = buffer_.getMemoryRequirements();
-    uint32_t type = ~0u;
-    for (const vk::MemoryPropertyFlags& wish : memoryWishes(use_))
-        if (type == ~0u)
-            type = device_->findMemoryType(needs.memoryTypeBits, wish);
-    if (type == ~0u)
+    const std::vector<MemoryPlan> plans = device_->planMemory(needs, use_);
+    if (plans.empty())
         throw Error(fmt::format("cannot allocate {}: no suitable memory type", name_));
-    reservation_ = device_->reserve(needs.size, name_);
-    memory_ = checked("allocate", name_, [&] {
-        return vk::raii::DeviceMemory(device, vk::MemoryAllocateInfo(needs.size, type));
-    });
+    for (const MemoryPlan& plan : plans) {
+        plan_ = plan;
+        reservation_ = device_->reserve(needs.size, plan.heap, name_);
+        try {
+            memory_ = vk::raii::DeviceMemory(device, vk::MemoryAllocateInfo(needs.size, plan.type));
+            break;
+        } catch (const vk::SystemError& error) {
+            if (error.code() != vk::Result::eErrorOutOfDeviceMemory || plan == plans.back())
+                throwVulkanError("allocate", name_, error);
+        }
+    }
     checked("bind memory of", name_, [&] { buffer_.bindMemory(*memory_, 0); });
-    using Memory = vk::MemoryPropertyFlagBits;
-    const uint32_t mappable =
-        device_->findMemoryType(1u << type, Memory::eHostVisible | Memory::eHostCoherent);
-    if (mappable == type)
+    if (plan_.isMapped)
         mapped_ = checked("map", name_, [&] { return memory_.mapMemory(0, VK_WHOLE_SIZE); });
-    if (use_ == BufferUse::texels)
-        view_ = checked("view", name_, [&] {
-            return vk::raii::BufferView(device,
-                                        vk::BufferViewCreateInfo({}, *buffer_, kTexelFormat, 0, size));
-        });
+    if (use_ == BufferUse::texels && !device_->storesTexels()) {
+        const vk::BufferViewCreateInfo info({}, *buffer_, kTexelFormat, 0, allocatedBytes(bytes_, use_));
+        view_ = checked("view", name_, [&] { return vk::raii::BufferView(device, info); });
+    }
 }
 
 void Buffer::upload(std::span<const std::byte> data) {
@@ -118,7 +112,7 @@ void Buffer::download(std::span<std::byte> data) const {
     assert(data.size() <= bytes_);
     if (data.empty())
         return;
-    if (mapped_ != nullptr) {
+    if (plan_.isReadMapped) {
         std::memcpy(data.data(), mapped_, data.size());
         return;
     }

@@ -11,15 +11,9 @@
 #include <vulkan/vulkan_raii.hpp>
 
 #include "gpu/device.h"
+#include "gpu/memory_plan.h"
 
 namespace lavalight::gpu {
-
-enum class BufferUse {
-    storage,  // read and written by kernels; stays in the device's memory
-    readback, // as storage, but mapped, for the few words that the host reads after each submission
-    uniform,  // a few words that every invocation reads alike, at most 16 KiB
-    texels,   // read by kernels as RGBA32UI texels (16 bytes an element) through a uniform texel view
-};
 
 // One Vulkan buffer with its memory. Contents are undefined until written. Moves, never copies.
 class Buffer {
@@ -33,7 +27,8 @@ class Buffer {
     [[nodiscard]] BufferUse use() const { return use_; }
 
     // Copy from host to device and back, and wait for it; through a staging buffer where the memory cannot be
-    // mapped. No submission that uses the buffer may be running. `data` must not exceed the buffer.
+    // mapped, or is slow to read. No submission that uses the buffer may be running. `data` must not exceed
+    // the buffer.
     void upload(std::span<const std::byte> data);
     void download(std::span<std::byte> data) const;
 
@@ -51,9 +46,11 @@ class Buffer {
     }
 
     [[nodiscard]] vk::Buffer handle() const { return *buffer_; }
+    // Null on a device that stores texels in storage buffers.
     [[nodiscard]] vk::BufferView texelView() const { return *view_; }
 
   private:
+    void create();
     void allocate();
 
     Device* device_; // outlives every buffer
@@ -64,7 +61,8 @@ class Buffer {
     vk::raii::Buffer buffer_ = nullptr;
     vk::raii::DeviceMemory memory_ = nullptr;
     vk::raii::BufferView view_ = nullptr;
-    void* mapped_ = nullptr; // null: not host-visible
+    MemoryPlan plan_;
+    void* mapped_ = nullptr; // null: as planned
 };
 
 } // namespace lavalight::gpu

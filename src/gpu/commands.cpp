@@ -32,7 +32,13 @@ Commands::Commands(Device& device) : device_(&device) {
     });
 }
 
+Commands::~Commands() {
+    if (isRunning_ && *pool_)
+        waitUntilIdle();
+}
+
 void Commands::begin() {
+    wait();
     checked("begin", "a command buffer", [&] {
         for (size_t i = 0; i < marked_.size(); ++i)
             marks_[i].reset();
@@ -116,12 +122,20 @@ void Commands::copy(const Buffer& from, const Buffer& to, uint64_t bytes) {
     stamp("");
 }
 
-void Commands::submitAndWait() {
+void Commands::submit() {
     checked("run", "a submission", [&] {
         buffers_.front().end();
         const vk::CommandBuffer commands = recorded(buffers_);
-        const vk::SubmitInfo submit({}, {}, commands);
-        device_->queue().submit(submit, *fence_);
+        device_->queue().submit(vk::SubmitInfo({}, {}, commands), *fence_);
+    });
+    isRunning_ = true;
+}
+
+void Commands::wait() {
+    if (!isRunning_)
+        return;
+    isRunning_ = false; // a failure leaves the queue idle, too
+    checked("run", "a submission", [&] {
         while (!waitForFence())
             reportTimeout();
     });

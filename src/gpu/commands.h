@@ -29,8 +29,11 @@ using KernelTimes = std::map<std::string, KernelTime, std::less<>>;
 class Commands {
   public:
     explicit Commands(Device& device);
+    ~Commands(); // waits
+    Commands(Commands&&) = default;
+    Commands& operator=(Commands&&) = default;
 
-    // Starts recording anew. No submission may be running.
+    // Starts recording anew, once what was submitted before is done.
     void begin();
     // Records `groups` workgroups along x; push constants must be as long as the kernel declares.
     void dispatch(const BoundKernel& kernel, uint32_t groups, std::span<const std::byte> pushConstants = {});
@@ -40,9 +43,16 @@ class Commands {
     // Sets every 32-bit word of `buffer`.
     void fill(const Buffer& buffer, uint32_t value);
     void copy(const Buffer& from, const Buffer& to, uint64_t bytes);
-    // Ends recording, runs, and returns when all is done. Throws Error where the device fails or is lost.
+    // Ends recording and has it run, behind what was submitted to the device before. Buffers and kernels must
+    // live until wait(). Throws Error where the device fails or is lost.
+    void submit();
+    // Returns when what was submitted is done. Throws Error as above.
     // Where it takes longer than the device's kernelTimeout, DeviceConfig::onKernelTimeout is called.
-    void submitAndWait();
+    void wait();
+    void submitAndWait() {
+        submit();
+        wait();
+    }
 
     // Sums over all submissions so far; empty on a queue without timestamps.
     [[nodiscard]] const KernelTimes& times() const { return times_; }
@@ -64,6 +74,7 @@ class Commands {
     vk::raii::Fence fence_ = nullptr;
     std::vector<vk::raii::Event> marks_; // set when a kernel of the submission is done, in order
     std::vector<std::string> marked_;    // names of the kernels of these marks
+    bool isRunning_ = false;
     vk::raii::QueryPool queries_ = nullptr;
     std::vector<std::string> stamps_; // the name whose work ends at timestamp i; empty: not a kernel
     KernelTimes times_;

@@ -30,6 +30,8 @@ DeviceLimits readLimits(const vk::raii::PhysicalDevice& physical, uint32_t queue
     DeviceLimits limits;
     limits.maxStorageBufferBytes = from.maxStorageBufferRange;
     limits.maxTexelBufferElements = from.maxTexelBufferElements;
+    limits.maxStorageBuffers = from.maxPerStageDescriptorStorageBuffers;
+    limits.maxTexelBuffers = from.maxPerStageDescriptorSampledImages;
     limits.maxGroups = from.maxComputeWorkGroupCount[0];
     limits.subgroupSize = chain.get<vk::PhysicalDeviceSubgroupProperties>().subgroupSize;
     if (physical.getQueueFamilyProperties()[queueFamily].timestampValidBits != 0)
@@ -51,7 +53,7 @@ std::vector<DeviceDescription> listDevices() {
 
 Device::Device(const DeviceConfig& config)
     : instance_(config.validate), kernelTimeout_(config.kernelTimeout),
-      onKernelTimeout_(config.onKernelTimeout) {
+      onKernelTimeout_(config.onKernelTimeout), stagesBuffers_(config.stagesBuffers) {
     std::vector<vk::raii::PhysicalDevice> devices = instance_.physicalDevices();
     const std::vector<DeviceDescription> descriptions = describeAll(devices);
     const uint32_t chosen = chooseDevice(descriptions, config);
@@ -60,6 +62,8 @@ Device::Device(const DeviceConfig& config)
     queueFamily_ = *findComputeFamily(physical_);
     limits_ = readLimits(physical_, queueFamily_);
     memory_ = physical_.getMemoryProperties();
+    runsAhead_ = config.runsAhead || !description_.isCpu;
+    storesTexels_ = config.storesTexels || !hasTexelBuffers(physical_.getProperties().limits);
 
     const float priority = 1.0f;
     const vk::DeviceQueueCreateInfo queueInfo({}, queueFamily_, 1, &priority);
@@ -70,23 +74,20 @@ Device::Device(const DeviceConfig& config)
 
 Device::~Device() = default;
 
-MemoryReservation Device::reserve(uint64_t bytes, std::string_view object) {
+MemoryReservation Device::reserve(uint64_t bytes, uint32_t heap, std::string_view object) {
     if (allocatedBytes_ + bytes > limits_.memoryBytes)
         throw Error(fmt::format("{} needs {:.1f} MiB, but {} has {:.1f} MiB with {:.1f} MiB in use; "
                                 "render a smaller image or scene",
                                 object, static_cast<double>(bytes) / 1048576.0, description_.name,
                                 static_cast<double>(limits_.memoryBytes) / 1048576.0,
                                 static_cast<double>(allocatedBytes_) / 1048576.0));
-    MemoryReservation reservation(allocatedBytes_, bytes);
+    MemoryReservation reservation(allocatedBytes_, heapBytes_[heap], bytes);
     peakAllocatedBytes_ = std::max(peakAllocatedBytes_, allocatedBytes_);
     return reservation;
 }
 
-uint32_t Device::findMemoryType(uint32_t typeBits, vk::MemoryPropertyFlags flags) const {
-    for (uint32_t i = 0; i < memory_.memoryTypeCount; ++i)
-        if ((typeBits >> i & 1u) != 0 && (memory_.memoryTypes[i].propertyFlags & flags) == flags)
-            return i;
-    return ~0u;
+std::vector<MemoryPlan> Device::planMemory(const vk::MemoryRequirements& needs, BufferUse use) const {
+    return gpu::planMemory(memory_, heapBytes_, {use, needs.size, needs.memoryTypeBits, stagesBuffers_});
 }
 
 } // namespace lavalight::gpu

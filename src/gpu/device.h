@@ -1,6 +1,7 @@
 // The Vulkan device: choice with reasons, limits, memory accounting.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -11,6 +12,7 @@
 #include <vulkan/vulkan_raii.hpp>
 
 #include "gpu/instance.h"
+#include "gpu/memory_plan.h"
 #include "gpu/vulkan_error.h"
 
 namespace lavalight::gpu {
@@ -26,6 +28,10 @@ struct DeviceConfig {
     // cannot be taken back from it, so there is no way to clean up: a program that has to end ends here.
     // Where the function returns, or there is none, the wait goes on.
     std::function<void(const std::string& message)> onKernelTimeout{};
+    // What other devices make necessary, asked of any device: for tests.
+    bool stagesBuffers = false; // copies to and from buffers, whose memory is never mapped but for readback
+    bool storesTexels = false;  // puts texels into storage buffers
+    bool runsAhead = false;     // submits work before what was submitted earlier is done
 };
 
 // One line of `lavalight devices`.
@@ -45,7 +51,9 @@ struct DeviceDescription {
 struct DeviceLimits {
     uint64_t maxStorageBufferBytes = 0;
     uint64_t maxTexelBufferElements = 0;
-    uint32_t maxGroups = 0; // workgroups of one dispatch, x
+    uint32_t maxStorageBuffers = 0; // of one kernel
+    uint32_t maxTexelBuffers = 0;   // of one kernel
+    uint32_t maxGroups = 0;         // workgroups of one dispatch, x
     uint32_t subgroupSize = 0;
     uint64_t memoryBytes = 0;          // the largest device-local heap
     double timestampNanoseconds = 0.0; // 0: no timestamps on the queue
@@ -55,21 +63,33 @@ struct DeviceLimits {
 class MemoryReservation {
   public:
     MemoryReservation() = default;
-    MemoryReservation(uint64_t& total, uint64_t bytes) : total_(&total), bytes_(bytes) { total += bytes; }
-    ~MemoryReservation() {
-        if (total_ != nullptr)
-            *total_ -= bytes_;
+    // Counts `bytes` in both.
+    MemoryReservation(uint64_t& ofDevice, uint64_t& ofHeap, uint64_t bytes)
+        : ofDevice_(&ofDevice), ofHeap_(&ofHeap), bytes_(bytes) {
+        ofDevice += bytes;
+        ofHeap += bytes;
     }
-    MemoryReservation(MemoryReservation&& other) noexcept
-        : total_(std::exchange(other.total_, nullptr)), bytes_(other.bytes_) {}
+    ~MemoryReservation() {
+        if (ofDevice_ != nullptr) {
+            *ofDevice_ -= bytes_;
+            *ofHeap_ -= bytes_;
+        }
+    }
+    MemoryReservation(MemoryReservation&& other) noexcept { swap(other); }
     MemoryReservation& operator=(MemoryReservation&& other) noexcept {
-        std::swap(total_, other.total_);
-        std::swap(bytes_, other.bytes_);
+        swap(other);
         return *this;
     }
 
   private:
-    uint64_t* total_ = nullptr; // the device's count; the device outlives its buffers
+    void swap(MemoryReservation& other) noexcept {
+        std::swap(ofDevice_, other.ofDevice_);
+        std::swap(ofHeap_, other.ofHeap_);
+        std::swap(bytes_, other.bytes_);
+    }
+
+    uint64_t* ofDevice_ = nullptr; // counts of the device, which outlives its buffers
+    uint64_t* ofHeap_ = nullptr;
     uint64_t bytes_ = 0;
 };
 
@@ -99,13 +119,19 @@ class Device {
     [[nodiscard]] uint64_t peakAllocatedBytes() const { return peakAllocatedBytes_; }
     // Throws Error if `bytes` more would not fit in the device's memory; otherwise counts them while the
     // result lives.
-    [[nodiscard]] MemoryReservation reserve(uint64_t bytes, std::string_view object);
+    [[nodiscard]] MemoryReservation reserve(uint64_t bytes, uint32_t heap, std::string_view object);
+    // Where such a buffer may go (gpu/memory_plan.h), best first.
+    [[nodiscard]] std::vector<MemoryPlan> planMemory(const vk::MemoryRequirements& needs,
+                                                     BufferUse use) const;
+    // Whether texels are read from storage buffers, because texel buffers are too small or too few.
+    [[nodiscard]] bool storesTexels() const { return storesTexels_; }
+    // Whether the device gains from work that is submitted before the work ahead of it is done: a GPU, which
+    // would idle while the host looks at its results. A CPU works for the host meanwhile.
+    [[nodiscard]] bool runsAhead() const { return runsAhead_; }
 
     [[nodiscard]] const vk::raii::Device& handle() const { return device_; }
     [[nodiscard]] const vk::raii::Queue& queue() const { return queue_; }
     [[nodiscard]] uint32_t queueFamily() const { return queueFamily_; }
-    // The first memory type allowed by `typeBits` that has all of `flags`, or ~0u.
-    [[nodiscard]] uint32_t findMemoryType(uint32_t typeBits, vk::MemoryPropertyFlags flags) const;
 
   private:
     Instance instance_;
@@ -120,6 +146,10 @@ class Device {
     DeviceLimits limits_;
     uint64_t allocatedBytes_ = 0;
     uint64_t peakAllocatedBytes_ = 0;
+    std::array<uint64_t, VK_MAX_MEMORY_HEAPS> heapBytes_{}; // of the buffers alive now
+    bool stagesBuffers_;
+    bool storesTexels_ = false;
+    bool runsAhead_ = false;
 };
 
 } // namespace lavalight::gpu

@@ -12,9 +12,6 @@
 namespace lavalight::gpu {
 namespace {
 
-// What the kernels use at most: see shaders/shared/bindings.h.
-constexpr uint32_t kStorageBuffers = 8;
-constexpr uint32_t kTexelBuffers = 8;
 constexpr uint32_t kWorkgroupSize = 64;
 constexpr uint64_t kMinTexelElements = 1u << 20;
 
@@ -75,6 +72,11 @@ std::optional<uint32_t> findComputeFamily(const vk::raii::PhysicalDevice& physic
     return found;
 }
 
+bool hasTexelBuffers(const vk::PhysicalDeviceLimits& limits) {
+    return limits.maxTexelBufferElements >= kMinTexelElements &&
+           limits.maxPerStageDescriptorSampledImages >= kMostTexelBuffers;
+}
+
 std::vector<std::string> whatIsMissing(const vk::PhysicalDeviceLimits& limits,
                                        const vk::PhysicalDeviceSubgroupProperties& subgroup) {
     std::vector<std::string> missing;
@@ -88,13 +90,9 @@ std::vector<std::string> whatIsMissing(const vk::PhysicalDeviceLimits& limits,
             missing.push_back(fmt::format(fmt::runtime(words), there, needed));
     };
     require("{} storage buffers per stage, {} needed", limits.maxPerStageDescriptorStorageBuffers,
-            kStorageBuffers);
-    require("{} texel buffers per stage, {} needed", limits.maxPerStageDescriptorSampledImages,
-            kTexelBuffers);
+            hasTexelBuffers(limits) ? kMostStorageBuffers : kMostStorageBuffers + kMostTexelBuffers);
     require("workgroups of {} invocations at most, {} needed", limits.maxComputeWorkGroupInvocations,
             kWorkgroupSize);
-    require("texel buffers of {} elements at most, {} needed", limits.maxTexelBufferElements,
-            kMinTexelElements);
     return missing;
 }
 

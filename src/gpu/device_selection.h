@@ -1,6 +1,7 @@
 // Which Vulkan devices can render, which cannot and why, and which one to take.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,6 +14,15 @@ namespace lavalight::gpu {
 
 // What `physical` is and every reason why it cannot render.
 [[nodiscard]] DeviceDescription describeDevice(const vk::raii::PhysicalDevice& physical, uint32_t index);
+
+// Most buffers of a kind that one kernel declares (a test looks at all kernels). Every Vulkan device allows
+// as many texel buffers.
+constexpr uint32_t kMostStorageBuffers = 8;
+constexpr uint32_t kMostTexelBuffers = 16;
+
+// Whether texel buffers of the device are as many and as large as scenes ask for. Where they are not, storage
+// buffers take their place.
+[[nodiscard]] bool hasTexelBuffers(const vk::PhysicalDeviceLimits& limits);
 
 // Why a device of these properties cannot run the kernels, a phrase each.
 [[nodiscard]] std::vector<std::string> whatIsMissing(const vk::PhysicalDeviceLimits& limits,

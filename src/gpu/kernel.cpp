@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "gpu/texel_storage.h"
 
 namespace lavalight::gpu {
 namespace {
@@ -48,10 +49,31 @@ vk::raii::Pipeline makePipeline(const Device& device, const KernelCode& code, vk
     return {device.handle(), nullptr, vk::ComputePipelineCreateInfo({}, stage, layout)};
 }
 
+uint32_t countOf(const KernelCode& code, BindingKind kind) {
+    return static_cast<uint32_t>(std::ranges::count(code.bindings, kind, &KernelBinding::kind));
+}
+
+void checkLimits(const Device& device, const KernelCode& code) {
+    const auto check = [&](BindingKind kind, uint32_t most, const char* words) {
+        if (countOf(code, kind) > most)
+            throw Error(fmt::format("cannot build kernel {}: it declares {} {} buffers, and {} allows {}",
+                                    code.name, countOf(code, kind), words, device.description().name, most));
+    };
+    check(BindingKind::storageBuffer, device.limits().maxStorageBuffers, "storage");
+    check(BindingKind::uniformTexelBuffer, device.limits().maxTexelBuffers, "texel");
+}
+
+KernelCode codeFor(const Device& device, KernelCode code) {
+    if (device.storesTexels())
+        code = withTexelsInStorage(std::move(code));
+    checkLimits(device, code);
+    return code;
+}
+
 } // namespace
 
 Kernel::Kernel(const Device& device, KernelCode code, std::span<const SpecialisationConstant> constants)
-    : code_(std::move(code)) {
+    : code_(codeFor(device, std::move(code))) {
     checked("build kernel", code_.name, [&] {
         setLayout_ = makeSetLayout(device, code_);
         layout_ = makeLayout(device, code_, *setLayout_);

@@ -20,7 +20,8 @@ namespace lavalight::gpu {
 // A compiled pipeline. Immutable after construction.
 class Kernel {
   public:
-    // Throws Error naming the kernel where the driver refuses it.
+    // Throws Error naming the kernel where the driver refuses it, or it declares more buffers than the device
+    // allows.
     Kernel(const Device& device, KernelCode code, std::span<const SpecialisationConstant> constants = {});
 
     [[nodiscard]] const std::string& name() const { return code_.name; }

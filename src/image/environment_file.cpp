@@ -3,12 +3,11 @@
 #include <array>
 #include <cmath>
 #include <fstream>
-#include <utility>
 
 #include "base/file.h"
 #include "image/exr.h"
 #include "image/hdr.h"
-#include "image/texel_limit.h"
+#include "image/pixel_limit.h"
 
 namespace lavalight {
 namespace {
@@ -28,8 +27,7 @@ bool isGood(float value) {
 
 EnvironmentFile readEnvironmentFile(const std::filesystem::path& path) {
     EnvironmentFile file;
-    file.image =
-        isExr(path) ? std::move(readExr(path, kMostBufferTexels).radiance) : readHdr(path, kMostBufferTexels);
+    file.image = isExr(path) ? readExrRadiance(path, kMostTexels) : readHdr(path, kMostTexels);
     for (glm::vec3& pixel : file.image.pixels) {
         const glm::bvec3 good(isGood(pixel.x), isGood(pixel.y), isGood(pixel.z));
         file.badTexels += glm::all(good) ? 0u : 1u;

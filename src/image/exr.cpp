@@ -1,7 +1,6 @@
 #include "image/exr.h"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cerrno>
 #include <cstring>
@@ -27,17 +26,15 @@
 #include "base/file.h"
 #include "base/log.h"
 #include "image/exr_header_check.h"
+#include "image/exr_layers.h"
 
 namespace lavalight {
 namespace {
 
 constexpr std::string_view kPrefix = "lavalight:";
-constexpr const char* kSamples = "samples";
-constexpr std::array<const char*, 3> kColor = {"R", "G", "B"};
-constexpr std::array<const char*, 3> kVariance = {"variance.R", "variance.G", "variance.B"};
-constexpr const char* kLuminance = "Y";
+using ChannelList = std::vector<std::string>;
 
-// ZIP keeps every core busy: 3840 x 2160 with our seven channels takes seconds on one.
+// ZIP keeps every core busy: 3840 x 2160 with seven channels takes seconds on one.
 void useAllCores() {
     const int cores = static_cast<int>(std::thread::hardware_concurrency());
     if (Imf::globalThreadCount() != cores)
@@ -53,18 +50,17 @@ Imf::Slice outputSlice(Imf::PixelType type, const T* first, size_t stride, uint3
     return {type, base, stride, stride * width};
 }
 
-void addColor(Imf::Header& header, Imf::FrameBuffer& buffer, const std::array<const char*, 3>& names,
-              const Image& image) {
-    for (int c = 0; c < 3; ++c) {
+void addImage(Imf::Header& header, Imf::FrameBuffer& buffer, const ChannelList& names, const Image& image) {
+    for (size_t c = 0; c < names.size(); ++c) {
         header.channels().insert(names[c], Imf::Channel(Imf::FLOAT));
-        buffer.insert(names[c],
-                      outputSlice(Imf::FLOAT, &image.pixels.front()[c], sizeof(glm::vec3), image.width));
+        buffer.insert(names[c], outputSlice(Imf::FLOAT, &image.pixels.front()[static_cast<glm::length_t>(c)],
+                                            sizeof(glm::vec3), image.width));
     }
 }
 
 void writeChannels(const std::filesystem::path& part, const Rendering& rendering, const Metadata& metadata,
                    std::span<const UintChannel> more) {
-    const Image& image = rendering.radiance;
+    const Image& image = rendering.radiance();
     const auto height = static_cast<int>(image.height);
     Imf::Header header(static_cast<int>(image.width), height);
     header.compression() = Imf::ZIP_COMPRESSION;
@@ -72,13 +68,16 @@ void writeChannels(const std::filesystem::path& part, const Rendering& rendering
     for (const auto& [key, value] : metadata)
         header.insert(std::string(kPrefix) + key, Imf::StringAttribute(value));
     Imf::FrameBuffer buffer;
-    addColor(header, buffer, kColor, image);
-    addColor(header, buffer, kVariance, rendering.variance);
+    for (const Layer& layer : rendering.layers) {
+        addImage(header, buffer, layer.channels, layer.mean);
+        if (layer.variance)
+            addImage(header, buffer, varianceChannels(layer.channels), *layer.variance);
+    }
     const auto addCounts = [&](const char* name, std::span<const uint32_t> values) {
         header.channels().insert(name, Imf::Channel(Imf::UINT));
         buffer.insert(name, outputSlice(Imf::UINT, values.data(), sizeof(uint32_t), image.width));
     };
-    addCounts(kSamples, rendering.sampleCounts);
+    addCounts(kSampleChannel, rendering.sampleCounts);
     for (const UintChannel& channel : more)
         addCounts(channel.name.c_str(), channel.values);
     std::ofstream stream(part, std::ios::binary);
@@ -121,27 +120,17 @@ void requireSaneHeader(const std::filesystem::path& path) {
         throw Error(exr_get_default_error_message(result));
 }
 
-std::string channelNames(const Imf::ChannelList& channels) {
-    std::string names;
-    for (auto i = channels.begin(); i != channels.end(); ++i)
-        names += (names.empty() ? "" : ", ") + std::string(i.name());
-    return names;
-}
-
 // Subsampled channels do not count.
-bool hasChannel(const Imf::ChannelList& channels, const char* name) {
-    const Imf::Channel* channel = channels.findChannel(name);
+bool isWhole(const Imf::Channel* channel) {
     return channel != nullptr && channel->xSampling == 1 && channel->ySampling == 1;
 }
 
-bool hasAll(const Imf::ChannelList& channels, const std::array<const char*, 3>& names) {
-    return std::all_of(names.begin(), names.end(), [&](const char* n) { return hasChannel(channels, n); });
-}
-
-// Y beside chroma (RY, BY) is an encoded colour image, which grey would misread.
-bool isLuminance(const Imf::ChannelList& channels) {
-    const bool chroma = channels.findChannel("RY") != nullptr || channels.findChannel("BY") != nullptr;
-    return hasChannel(channels, kLuminance) && !chroma;
+std::vector<ExrChannel> channelsOf(const Imf::InputFile& file) {
+    const Imf::ChannelList& list = file.header().channels();
+    std::vector<ExrChannel> channels;
+    for (auto i = list.begin(); i != list.end(); ++i)
+        channels.push_back({i.name(), i.channel().type != Imf::UINT, isWhole(&i.channel())});
+    return channels;
 }
 
 void warnIfNotRec709(const Imf::Header& header, const std::filesystem::path& path) {
@@ -170,15 +159,11 @@ class PixelReader {
         requirePixelsFit(width_, height_, mostPixels, bytesEach);
     }
 
-    void bindColor(Image& image, const std::array<const char*, 3>& names) {
+    void bindImage(Image& image, const ChannelList& names) {
         reserve(image);
-        for (int c = 0; c < 3; ++c)
-            bind(names[c], Imf::FLOAT, reinterpret_cast<float*>(image.pixels.data()) + c, sizeof(glm::vec3));
-    }
-
-    void bindGrey(Image& image) {
-        reserve(image);
-        bind(kLuminance, Imf::FLOAT, image.pixels.data(), sizeof(glm::vec3));
+        for (size_t c = 0; c < names.size(); ++c)
+            bind(names[c].c_str(), Imf::FLOAT, reinterpret_cast<float*>(image.pixels.data()) + c,
+                 sizeof(glm::vec3));
     }
 
     void bindCounts(std::vector<uint32_t>& counts, const char* name) {
@@ -234,42 +219,57 @@ Metadata readMetadata(const Imf::Header& header) {
     return metadata;
 }
 
-ExrFile readChannels(Imf::InputFile& file, uint64_t mostPixels) {
-    const Imf::ChannelList& channels = file.header().channels();
-    const bool grey = !hasAll(channels, kColor);
-    if (grey && !isLuminance(channels))
-        throw Error(fmt::format("it lacks channels R, G, B (or Y alone) at full resolution; it has {}",
-                                channelNames(channels)));
-    const bool hasVariance = hasAll(channels, kVariance);
-    const uint64_t bytesEach = sizeof(glm::vec3) * (hasVariance ? 2 : 1) + sizeof(uint32_t);
-    ExrFile result;
-    PixelReader reader(file, mostPixels, bytesEach);
-    if (grey)
-        reader.bindGrey(result.radiance);
-    else
-        reader.bindColor(result.radiance, kColor);
-    if (hasVariance)
-        reader.bindColor(result.variance.emplace(), kVariance);
-    if (hasChannel(channels, kSamples))
-        reader.bindCounts(result.sampleCounts.emplace(), kSamples);
+// Grey images have one channel.
+void spreadGrey(Layer& layer) {
+    if (layer.channels.size() > 1)
+        return;
+    for (glm::vec3& pixel : layer.mean.pixels)
+        pixel = glm::vec3(pixel.x);
+    layer.channels = colorLayer({}, std::nullopt).channels;
+}
+
+Image readRadiance(Imf::InputFile& file, uint64_t mostPixels) {
+    Layer layer = colorLayerIn(channelsOf(file));
+    PixelReader reader(file, mostPixels, sizeof(glm::vec3));
+    reader.bindImage(layer.mean, layer.channels);
     reader.read();
-    if (grey)
-        for (glm::vec3& pixel : result.radiance.pixels)
-            pixel = glm::vec3(pixel.x);
+    spreadGrey(layer);
+    return std::move(layer.mean);
+}
+
+ExrFile readLayers(Imf::InputFile& file) {
+    ExrFile result;
+    result.layers = layersIn(channelsOf(file));
+    size_t images = 0;
+    for (const Layer& layer : result.layers)
+        images += layer.variance ? 2 : 1;
+    PixelReader reader(file, kMaxImagePixels, images * sizeof(glm::vec3) + sizeof(uint32_t));
+    for (Layer& layer : result.layers) {
+        reader.bindImage(layer.mean, layer.channels);
+        if (layer.variance)
+            reader.bindImage(*layer.variance, varianceChannels(layer.channels));
+    }
+    if (isWhole(file.header().channels().findChannel(kSampleChannel)))
+        reader.bindCounts(result.sampleCounts, kSampleChannel);
+    reader.read();
+    spreadGrey(result.layers.front());
     result.metadata = readMetadata(file.header());
     return result;
 }
 
-std::optional<UintImage> readCounts(Imf::InputFile& file, std::span<const std::string> names) {
+std::optional<UintImage> readCounts(Imf::InputFile& file, const ChannelNames& namesIn) {
     const Imf::ChannelList& channels = file.header().channels();
+    Metadata metadata = readMetadata(file.header());
+    const ChannelList names = namesIn(metadata);
     for (const std::string& name : names)
-        if (!hasChannel(channels, name.c_str()) || channels[name.c_str()].type != Imf::UINT)
+        if (const Imf::Channel* channel = channels.findChannel(name);
+            !isWhole(channel) || channel->type != Imf::UINT)
             return std::nullopt;
     const Imath::Box2i window = file.header().dataWindow();
     UintImage image{static_cast<uint32_t>(window.max.x - window.min.x + 1),
                     static_cast<uint32_t>(window.max.y - window.min.y + 1),
                     {},
-                    readMetadata(file.header())};
+                    std::move(metadata)};
     std::vector<std::vector<uint32_t>> planes(names.size());
     PixelReader reader(file, kMaxImagePixels, 2 * sizeof(uint32_t) * names.size()); // with the copy below
     for (size_t i = 0; i < names.size(); ++i)
@@ -310,10 +310,14 @@ auto readWith(const std::filesystem::path& path, const Read& read) {
 
 void writeExr(const std::filesystem::path& path, const Rendering& rendering, const Metadata& metadata,
               std::span<const UintChannel> more) {
-    [[maybe_unused]] const Image& image = rendering.radiance;
+    [[maybe_unused]] const Image& image = rendering.radiance();
     assert(image.width > 0 && image.height > 0 && image.width <= kMaxImageSide &&
            image.height <= kMaxImageSide);
-    assert(rendering.variance.pixels.size() == image.pixels.size());
+    for ([[maybe_unused]] const Layer& layer : rendering.layers) {
+        assert(layer.mean.pixels.size() == image.pixels.size());
+        assert(!layer.variance || layer.variance->pixels.size() == image.pixels.size());
+        assert(!layer.channels.empty() && layer.channels.size() <= kMostComponents);
+    }
     assert(rendering.sampleCounts.size() == image.pixels.size());
     useAllCores();
     writeFileAtomically(path, [&](const std::filesystem::path& part) {
@@ -325,16 +329,22 @@ void writeExr(const std::filesystem::path& path, const Rendering& rendering, con
     });
 }
 
-ExrFile readExr(const std::filesystem::path& path, uint64_t mostPixels) {
+ExrFile readExr(const std::filesystem::path& path) {
     return readWith(path, [&](Imf::InputFile& file) {
         warnIfNotRec709(file.header(), path);
-        return readChannels(file, mostPixels);
+        return readLayers(file);
     });
 }
 
-std::optional<UintImage> readUintChannels(const std::filesystem::path& path,
-                                          std::span<const std::string> names) {
-    return readWith(path, [&](Imf::InputFile& file) { return readCounts(file, names); });
+Image readExrRadiance(const std::filesystem::path& path, uint64_t mostPixels) {
+    return readWith(path, [&](Imf::InputFile& file) {
+        warnIfNotRec709(file.header(), path);
+        return readRadiance(file, mostPixels);
+    });
+}
+
+std::optional<UintImage> readUintChannels(const std::filesystem::path& path, const ChannelNames& namesIn) {
+    return readWith(path, [&](Imf::InputFile& file) { return readCounts(file, namesIn); });
 }
 
 } // namespace lavalight

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -11,6 +12,7 @@
 
 #include "image/image.h"
 #include "image/pixel_limit.h"
+#include "image/rendering.h"
 
 namespace lavalight {
 
@@ -23,28 +25,32 @@ struct UintChannel {
     std::span<const uint32_t> values;
 };
 
+inline constexpr const char* kSampleChannel = "samples";
+
 // Writes a scan-line file with ZIP compression, all or nothing (base/file.h). Channels:
 //   R G B                              32-bit float, linear Rec. 709
 //   variance.R variance.G variance.B   32-bit float, the variance of each pixel's mean
 //   samples                            32-bit unsigned, how many samples each pixel rests on
-// and `more`, which may stand in for `samples`. Metadata become string attributes named "lavalight:<key>".
-// Equal input gives equal bytes. Throws Error.
+// and so, by their own names, those of further layers, each with its variance if it has one; and `more`.
+// Metadata become string attributes named "lavalight:<key>". Equal input gives equal bytes. Throws Error.
 void writeExr(const std::filesystem::path& path, const Rendering& rendering, const Metadata& metadata,
               std::span<const UintChannel> more = {});
 
-struct ExrFile {
-    Image radiance;                                    // the data window, wherever it lies
-    std::optional<Image> variance;                     // where the file has all three variance channels
-    std::optional<std::vector<uint32_t>> sampleCounts; // where the file has a samples channel
+// The data window, wherever it lies. Without variance and sample counts where the file lacks them.
+struct ExrFile : Rendering {
     Metadata metadata; // string attributes by name, "lavalight:" taken off, in alphabetical order of the full
                        // names
 };
 
 // Reads the first part of any scan-line or tiled file with R, G and B, or with luminance Y alone, in half,
-// float or unsigned; other channels are ignored. Colours are taken as linear Rec. 709; a file that says
-// otherwise gets a warning. Throws Error for whatever is no such file: missing, damaged, incomplete, larger
-// than kMaxImageSide a side, than `mostPixels` or than memory, without colour.
-[[nodiscard]] ExrFile readExr(const std::filesystem::path& path, uint64_t mostPixels = kMaxImagePixels);
+// float or unsigned. Further layers are one to three float or half channels that share a name up to its last
+// dot, as R, G, B or in alphabetical order, or one channel without a dot; other channels are ignored. Colours
+// are taken as linear Rec. 709; a file that says otherwise gets a warning. Throws Error for whatever is no
+// such file: missing, damaged, incomplete, larger than kMaxImageSide a side or than memory, without colour.
+[[nodiscard]] ExrFile readExr(const std::filesystem::path& path);
+
+// Its radiance alone. Throws Error for more than `mostPixels` as well.
+[[nodiscard]] Image readExrRadiance(const std::filesystem::path& path, uint64_t mostPixels);
 
 struct UintImage {
     uint32_t width = 0;
@@ -53,9 +59,10 @@ struct UintImage {
     Metadata metadata;            // as ExrFile's
 };
 
-// The channels of these names alone; nothing unless the file has them all, as 32-bit unsigned numbers. Throws
-// Error as readExr does.
+// The channels alone that `namesIn` picks by the file's metadata; nothing unless the file has them all, as
+// 32-bit unsigned numbers. Throws Error as readExr does, and what `namesIn` throws, with the file's name.
+using ChannelNames = std::function<std::vector<std::string>(const Metadata& metadata)>;
 [[nodiscard]] std::optional<UintImage> readUintChannels(const std::filesystem::path& path,
-                                                        std::span<const std::string> names);
+                                                        const ChannelNames& namesIn);
 
 } // namespace lavalight

@@ -28,12 +28,4 @@ struct Image {
     }
 };
 
-// What a render leaves behind: for each pixel the mean radiance, the variance of that mean, and how many
-// samples it rests on.
-struct Rendering {
-    Image radiance;
-    Image variance;                     // of the mean, per channel; 0 where fewer than two samples were taken
-    std::vector<uint32_t> sampleCounts; // row by row from the top
-};
-
 } // namespace lavalight

@@ -6,8 +6,6 @@
 #include <string_view>
 #include <vector>
 
-#include "image/texel_limit.h"
-
 namespace lavalight {
 
 // Four channels RGBA, rows from the top, values as in the file.
@@ -19,9 +17,6 @@ struct Picture {
     std::vector<uint8_t> bytes; // 4 or, in the machine's byte order, 8 a texel
     std::string damage{};       // what the decoder passed over; empty: nothing
 };
-
-// The most texels of a picture; 512 MiB of them, or twice that with 16 bits a channel.
-constexpr uint64_t kMostPictureTexels = kMostBufferTexels;
 
 struct PictureSize {
     uint32_t width = 0;

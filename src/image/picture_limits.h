@@ -6,7 +6,7 @@
 
 namespace lavalight {
 
-// Throws Error for a picture without texels, and for one of more than kMostPictureTexels.
+// Throws Error for a picture without texels, and for one of more than kMostTexels.
 void requirePictureFits(int64_t width, int64_t height);
 
 // Throws Error where so many bytes cannot hold so many texels: a small file of a huge picture is damaged, or

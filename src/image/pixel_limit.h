@@ -7,8 +7,12 @@
 
 namespace lavalight {
 
-// Of an image of the longest sides.
+// Pixels of an image of the longest sides.
 inline constexpr uint64_t kMaxImagePixels = uint64_t{kMaxImageSide} * kMaxImageSide;
+
+// Elements of a texel buffer on the devices that we know, so the most texels of a picture or a scene:
+// maxTexelBufferElements.
+inline constexpr uint64_t kMostTexels = 134'217'728;
 
 // Throws Error, which names no file, for more pixels than `most`, and for pixels of so many bytes each that
 // memory does not hold them.

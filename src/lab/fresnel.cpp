@@ -8,15 +8,15 @@ namespace lavalight {
 namespace {
 
 constexpr double kGlass = 1.5;
-constexpr uint64_t kKernelSamples = 1u << 20;
-constexpr uint32_t kImageHeight = 48;
+constexpr uint64_t kFresnelSamples = 1u << 20;
+constexpr uint32_t kFresnelImageHeight = 48;
 
 EstimatorRow rowOf(const char* name, Fresnel fresnel, double eta, const SampleKernel& kernel, uint32_t seed) {
     LabRun run{};
     run.seed = seed;
     run.kind = static_cast<uint32_t>(fresnel);
     run.a.x = static_cast<float>(eta);
-    const Moments m = kernel.estimate(run, kKernelSamples);
+    const Moments m = kernel.estimate(run, kFresnelSamples);
     return {name, m.count, m.mean, diffuseReflectance(fresnel, eta), m.standardError(), m.variance(),
             {},   1.0,     {}};
 }
@@ -34,7 +34,7 @@ Table reflectance(gpu::Device& device, uint32_t seed) {
 }
 
 Table scene(gpu::Device& device, const LabOptions& options) {
-    const RenderBench bench(device, "cornell-glass", kImageHeight);
+    const RenderBench bench(device, "cornell-glass", kFresnelImageHeight);
     RenderTable rows(bench, static_cast<uint32_t>(options.samples));
     EstimatorSettings estimator = independentSettings(options.seed);
     rows.add("exact", estimator);

@@ -25,14 +25,13 @@ void addFilm(RenderRun& run, const Rendering& rendering, const std::vector<size_
     const auto pixels = static_cast<double>(measured.size());
     double squares = 0.0;
     for (const size_t i : measured) {
-        const double deviation = deviationOfChannels(rendering.variance.pixels[i]);
+        const double deviation = deviationOfChannels(rendering.variance().pixels[i]);
         squares += deviation * deviation;
-        run.mean += meanOfChannels(rendering.radiance.pixels[i]) / pixels;
-        run.variance += meanOfChannels(rendering.variance.pixels[i]) * rendering.sampleCounts[i] / pixels;
+        run.mean += meanOfChannels(rendering.radiance().pixels[i]) / pixels;
+        run.variance += meanOfChannels(rendering.variance().pixels[i]) * rendering.sampleCounts[i] / pixels;
     }
     run.standardError = std::sqrt(squares) / pixels;
-    for (const uint32_t count : rendering.sampleCounts)
-        run.paths += count;
+    run.paths += rendering.samples();
 }
 
 // Whether the pixel or one of the eight around it has emission: samples find even a light that barely reaches
@@ -73,7 +72,7 @@ RenderBench::RenderBench(gpu::Device& device, const std::string& scene, uint32_t
     emissionOnly.maxBounces = 0;
     Renderer renderer(device, scene_, scene_.cameras.front(), settings(emissionOnly, kEmissionSamples));
     renderer.render([](double) { return true; });
-    measured_ = pixelsWithoutLight(renderer.rendering().radiance);
+    measured_ = pixelsWithoutLight(renderer.rendering().radiance());
 }
 
 RenderSettings RenderBench::settings(const EstimatorSettings& estimator, uint32_t samples) const {

@@ -12,8 +12,8 @@ namespace {
 
 constexpr uint32_t kRays = 8;
 constexpr double kWatts = 16.0;
-constexpr uint64_t kKernelSamples = 1u << 18;
-constexpr uint32_t kImageHeight = 48;
+constexpr uint64_t kRouletteSamples = 1u << 18;
+constexpr uint32_t kRouletteImageHeight = 48;
 
 EstimatorRow rowOf(const std::string& name, uint32_t kind, double survival, const SampleKernel& kernel,
                    uint32_t seed) {
@@ -23,7 +23,7 @@ EstimatorRow rowOf(const std::string& name, uint32_t kind, double survival, cons
     run.count = kRays;
     run.a.x = static_cast<float>(kWatts);
     run.a.y = static_cast<float>(survival);
-    const Moments m = kernel.estimate(run, kKernelSamples);
+    const Moments m = kernel.estimate(run, kRouletteSamples);
     const Theory theory = rouletteRays(kRays, kWatts, survival);
     EstimatorRow row{name,         m.count,         m.mean, theory.mean, m.standardError(),
                      m.variance(), theory.variance, 1.0,    {}};
@@ -59,7 +59,7 @@ Table box(gpu::Device& device, const LabOptions& options) {
                                          {"max-albedo", Roulette::maxAlbedo},
                                          {"throughput", Roulette::throughput},
                                          {"sqrt-throughput", Roulette::sqrtThroughput}}};
-    const RenderBench bench(device, "cornell-box", kImageHeight);
+    const RenderBench bench(device, "cornell-box", kRouletteImageHeight);
     RenderTable rows(bench, static_cast<uint32_t>(options.samples));
     EstimatorSettings estimator = independentSettings(options.seed);
     estimator.rouletteStart = 1; // from the first vertex on, as in the lecture

@@ -91,7 +91,7 @@ std::vector<Cell> slopes(const std::string& name, const Convergence& c) {
     return {name, logLogSlope(c.samples, c.errors[0]), logLogSlope(c.samples, c.errors[1])};
 }
 
-constexpr uint32_t kImageHeight = 32;
+constexpr uint32_t kSamplerImageHeight = 32;
 constexpr uint32_t kImageSeeds = 8;
 constexpr uint32_t kImageStep = 16; // samples of a wave: a film is looked at after 16, 64 and 256
 constexpr uint32_t kImageSamples = 256;
@@ -105,7 +105,7 @@ std::vector<Image> snapshots(const RenderBench& bench, const EstimatorSettings& 
     uint32_t next = kImageStep;
     renderer.render([&](double fraction) {
         if (std::lround(fraction * kImageSamples) >= next) {
-            images.push_back(renderer.rendering().radiance);
+            images.push_back(renderer.rendering().radiance());
             next *= 4;
         }
         return true;
@@ -135,7 +135,7 @@ void addImages(Convergence& result, size_t sampler, const std::vector<std::vecto
 }
 
 Convergence renderBox(gpu::Device& device, uint32_t seed) {
-    const RenderBench bench(device, "cornell-box", kImageHeight);
+    const RenderBench bench(device, "cornell-box", kSamplerImageHeight);
     Convergence result;
     for (uint32_t samples = kImageStep; samples <= kImageSamples; samples *= 4)
         result.samples.push_back(samples);
@@ -177,7 +177,7 @@ std::vector<Table> runSampler(gpu::Device& device, const LabOptions& options) {
     tables.push_back(
         convergenceTable("cornell-box",
                          fmt::format("The Cornell box, {0}x{0} pixels; RMSE by the differences of {1} seeds",
-                                     kImageHeight, kImageSeeds),
+                                     kSamplerImageHeight, kImageSeeds),
                          box, {}));
     fits.rows.push_back(slopes("cornell-box", box));
     fits.notes = {

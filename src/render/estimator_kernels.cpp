@@ -5,23 +5,18 @@
 
 #include "device_scene/scene_features.h"
 #include "gpu/warm_up.h"
+#include "render/setting_table.h"
 
 namespace lavalight {
 
 std::vector<gpu::SpecialisationConstant> estimatorConstants(const EstimatorSettings& settings,
                                                             SceneFeatures features) {
     const auto [first, second] = featureConstants(features);
-    return {{CONSTANT_SAMPLER, static_cast<uint32_t>(settings.sampler)},
-            {CONSTANT_HEMISPHERE, static_cast<uint32_t>(settings.hemisphere)},
-            {CONSTANT_NEE, settings.nextEventEstimation ? 1u : 0u},
-            {CONSTANT_MIS, static_cast<uint32_t>(settings.mis)},
-            {CONSTANT_ROULETTE, static_cast<uint32_t>(settings.roulette)},
-            {CONSTANT_MIS_SURVIVAL, settings.misSurvival ? 1u : 0u},
-            {CONSTANT_FRESNEL, static_cast<uint32_t>(settings.fresnel)},
-            {CONSTANT_MULTIPLE_SCATTERING, settings.multipleScattering ? 1u : 0u},
-            {CONSTANT_TEXTURE_FILTER, static_cast<uint32_t>(settings.textureFilter)},
-            first,
-            second};
+    std::vector<gpu::SpecialisationConstant> constants{first, second};
+    for (const SettingRow& row : settingRows())
+        if (const auto* values = std::get_if<NamedValues>(&row.values); values && values->constant)
+            constants.push_back({*values->constant, values->get(settings)});
+    return constants;
 }
 
 std::vector<std::string_view> estimatorKernelNames(Schedule schedule) {
@@ -67,7 +62,8 @@ void EstimatorKernels::replace(KernelMap compiled) noexcept {
     kernels_.merge(compiled); // kernels stay at their addresses, which bound ones know
 }
 
-bool EstimatorKernels::serve(Schedule schedule, const EstimatorSettings& settings, SceneFeatures features) const {
+bool EstimatorKernels::serve(Schedule schedule, const EstimatorSettings& settings,
+                             SceneFeatures features) const {
     return schedule == schedule_ && estimatorConstants(settings, features) == constants_;
 }
 

@@ -44,7 +44,8 @@ class EstimatorKernels {
     [[nodiscard]] const gpu::Kernel& operator[](std::string_view name) const;
     [[nodiscard]] const KernelMap& all() const { return kernels_; }
     // Whether they are what the constructor would make of these.
-    [[nodiscard]] bool serve(Schedule schedule, const EstimatorSettings& settings, SceneFeatures features) const;
+    [[nodiscard]] bool serve(Schedule schedule, const EstimatorSettings& settings,
+                             SceneFeatures features) const;
     // For another render, which they cost no time.
     [[nodiscard]] EstimatorKernels handOn() && {
         seconds_ = 0.0;

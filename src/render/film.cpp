@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -11,8 +12,9 @@
 namespace lavalight {
 namespace {
 
-uint32_t rowsPerBand(const gpu::Device& device, uint32_t width, uint32_t height, uint32_t wanted) {
-    const uint64_t bytesPerRow = uint64_t{width} * kFilmWords * sizeof(uint32_t);
+uint32_t rowsPerBand(const gpu::Device& device, uint32_t words, glm::uvec2 size, uint32_t wanted) {
+    const auto [width, height] = std::pair(size.x, size.y);
+    const uint64_t bytesPerRow = uint64_t{width} * words * sizeof(uint32_t);
     const auto most = static_cast<uint32_t>(
         std::min<uint64_t>(device.limits().maxStorageBufferBytes / bytesPerRow, height));
     if (most == 0)
@@ -21,24 +23,25 @@ uint32_t rowsPerBand(const gpu::Device& device, uint32_t width, uint32_t height,
     return wanted == 0 ? most : std::min(wanted, most);
 }
 
-// Copies words between a band's planes, each of `count` pixels, and the whole image's: a function of both.
+// Copies words between a band's word planes, each of `count` pixels, and the whole image's: a function of
+// both.
 template <typename Copy>
-void forEachPlane(const FilmBand& band, const RawFilm& raw, const Copy& copy) {
+void forEachWord(const FilmBand& band, const RawFilm& raw, const Copy& copy) {
     const size_t count = size_t{band.rows} * raw.width;
     const size_t first = size_t{band.firstRow} * raw.width;
-    for (size_t plane = 0; plane < kFilmWords; ++plane)
-        copy(plane * count, plane * raw.pixels() + first, count);
+    for (size_t word = 0; word < raw.layout.words(); ++word)
+        copy(word * count, word * raw.pixels() + first, count);
 }
 
 } // namespace
 
-Film::Film(gpu::Device& device, uint32_t width, uint32_t height, uint32_t bandRows)
-    : device_(&device), width_(width), height_(height),
+Film::Film(gpu::Device& device, uint32_t width, uint32_t height, uint32_t bandRows, FilmLayout layout)
+    : device_(&device), width_(width), height_(height), layout_(std::move(layout)),
       tallies_(device, "film tallies", 2 * kTallyCount * sizeof(uint32_t), gpu::BufferUse::readback) {
-    const uint32_t rows = rowsPerBand(device, width, height, bandRows);
+    const uint32_t rows = rowsPerBand(device, layout_.words(), {width, height}, bandRows);
     for (uint32_t first = 0; first < height; first += rows) {
         const uint32_t here = std::min(rows, height - first);
-        const uint64_t bytes = uint64_t{here} * width * kFilmWords * sizeof(uint32_t);
+        const uint64_t bytes = uint64_t{here} * width * layout_.words() * sizeof(uint32_t);
         bands_.push_back({first, here, gpu::Buffer(device, "film", bytes, gpu::BufferUse::storage)});
     }
     clear();
@@ -54,10 +57,9 @@ void Film::clear() {
 }
 
 Rendering Film::resolve() const {
-    Rendering rendering{Image(width_, height_), Image(width_, height_),
-                        std::vector<uint32_t>(size_t{width_} * height_)};
+    Rendering rendering = emptyRendering(layout_, width_, height_);
     for (const FilmBand& band : bands_)
-        resolvePixels(band.sums.downloadAll<uint32_t>(), size_t{band.firstRow} * width_, rendering);
+        resolvePixels(band.sums.downloadAll<uint32_t>(), layout_, size_t{band.firstRow} * width_, rendering);
     return rendering;
 }
 
@@ -74,10 +76,11 @@ RawTallies Film::rawTallies() const {
 }
 
 RawFilm Film::read() const {
-    RawFilm raw{width_, height_, std::vector<uint32_t>(kFilmWords * size_t{width_} * height_), rawTallies()};
+    RawFilm raw{width_, height_, std::vector<uint32_t>(layout_.words() * size_t{width_} * height_),
+                rawTallies(), layout_};
     for (const FilmBand& band : bands_) {
         const std::vector<uint32_t> words = band.sums.downloadAll<uint32_t>();
-        forEachPlane(band, raw, [&](size_t ofBand, size_t ofImage, size_t count) {
+        forEachWord(band, raw, [&](size_t ofBand, size_t ofImage, size_t count) {
             std::copy_n(words.begin() + static_cast<ptrdiff_t>(ofBand), count,
                         raw.words.begin() + static_cast<ptrdiff_t>(ofImage));
         });
@@ -86,10 +89,10 @@ RawFilm Film::read() const {
 }
 
 void Film::restore(const RawFilm& raw) {
-    assert(raw.width == width_ && raw.height == height_);
+    assert(raw.width == width_ && raw.height == height_ && raw.layout == layout_);
     for (FilmBand& band : bands_) {
-        std::vector<uint32_t> words(kFilmWords * size_t{band.rows} * width_);
-        forEachPlane(band, raw, [&](size_t ofBand, size_t ofImage, size_t count) {
+        std::vector<uint32_t> words(layout_.words() * size_t{band.rows} * width_);
+        forEachWord(band, raw, [&](size_t ofBand, size_t ofImage, size_t count) {
             std::copy_n(raw.words.begin() + static_cast<ptrdiff_t>(ofImage), count,
                         words.begin() + static_cast<ptrdiff_t>(ofBand));
         });

@@ -1,14 +1,14 @@
-// The exact film: integer sums of L and L^2 per pixel, in bands of rows, on the device.
+// The exact film: integer sums per pixel, in bands of rows, on the device.
 #pragma once
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "film/film_layout.h"
 #include "film/raw_film.h"
 #include "gpu/buffer.h"
-#include "image/image.h"
-#include "shared/film.h"
+#include "image/rendering.h"
 
 namespace lavalight {
 
@@ -22,11 +22,13 @@ struct FilmBand {
 class Film {
   public:
     // bandRows 0: as many as one storage buffer of the device holds. Throws Error where memory does not
-    // suffice.
-    Film(gpu::Device& device, uint32_t width, uint32_t height, uint32_t bandRows);
+    // suffice. Kernels that write the film must be specialised to the layout (CONSTANT_FILM_PLANES).
+    Film(gpu::Device& device, uint32_t width, uint32_t height, uint32_t bandRows,
+         FilmLayout layout = colorLayout());
 
     [[nodiscard]] uint32_t width() const { return width_; }
     [[nodiscard]] uint32_t height() const { return height_; }
+    [[nodiscard]] const FilmLayout& layout() const { return layout_; }
     [[nodiscard]] std::span<const FilmBand> bands() const { return bands_; }
     [[nodiscard]] const gpu::Buffer& tallies() const { return tallies_; }
 
@@ -35,7 +37,7 @@ class Film {
     [[nodiscard]] Rendering resolve() const;
     [[nodiscard]] FilmTallies readTallies() const;
 
-    // All of it, and back; `raw` must be of its size.
+    // All of it, and back; `raw` must be of its size and layout.
     [[nodiscard]] RawFilm read() const;
     void restore(const RawFilm& raw);
 
@@ -45,6 +47,7 @@ class Film {
     gpu::Device* device_;
     uint32_t width_;
     uint32_t height_;
+    FilmLayout layout_;
     std::vector<FilmBand> bands_;
     gpu::Buffer tallies_;
 };

@@ -50,24 +50,19 @@ gpu::ResourceTable FusedPaths::State::table() const {
     return resources;
 }
 
-FusedPaths::Band::Band(gpu::Device& device, const State& state, const WaveInputs& inputs,
-                       const FilmBand& film)
-    : resources(device, inputs, film, state.table()), path(device, inputs.kernel("path"), resources.table),
-      accumulate(device, inputs.kernel("accumulate"), resources.table) {}
-
 FusedPaths::FusedPaths(gpu::Device& device, const WaveInputs& inputs)
-    : WaveRenderer(device),
-      state_(device, inputs.frame.waveSize, (inputs.scene.features() & kFeatureManyTriangles) != 0) {
+    : state_(device, inputs.frame.waveSize, (inputs.scene.features() & kFeatureManyTriangles) != 0),
+      commands_(device) {
     bands_.reserve(inputs.film.bands().size());
     for (const FilmBand& band : inputs.film.bands())
-        bands_.emplace_back(device, state_, inputs, band);
+        bands_.emplace_back(device, inputs, band, state_.table());
     commands_.begin();
     commands_.fill(state_.lanes, 0); // of no wave
     commands_.submitAndWait();
 }
 
 void FusedPaths::renderWave(size_t bandIndex, WaveRange range) {
-    const Band& band = bands_[bandIndex];
+    const BoundBand& band = bands_[bandIndex];
     const uint32_t slots = range.pixelCount * range.sampleCount;
     range.slotsPerLane = slotsPerLane(slots);
     range.wave = ++wave_;
@@ -76,15 +71,15 @@ void FusedPaths::renderWave(size_t bandIndex, WaveRange range) {
     while (advance(band, range, lanes) > 0) {
     }
     commands_.begin();
-    commands_.dispatch(band.accumulate, groupsFor(range.pixelCount), pushed(range));
+    commands_.dispatch(band["accumulate"], groupsFor(range.pixelCount), pushed(range));
     commands_.submitAndWait();
     rays_.camera += slots;
 }
 
-uint32_t FusedPaths::advance(const Band& band, const WaveRange& range, uint32_t lanes) {
+uint32_t FusedPaths::advance(const BoundBand& band, const WaveRange& range, uint32_t lanes) {
     commands_.begin();
     commands_.fill(state_.counters, 0);
-    commands_.dispatch(band.path, groupsFor(lanes), pushed(range));
+    commands_.dispatch(band["path"], groupsFor(lanes), pushed(range));
     commands_.submitAndWait();
     const LaneCounters counters = state_.counters.downloadAll<LaneCounters>().front();
     rays_.indirect += counters.indirectRays;

@@ -13,6 +13,7 @@ class FusedPaths : public WaveRenderer {
     FusedPaths(gpu::Device& device, const WaveInputs& inputs);
 
     void renderWave(size_t band, WaveRange range) override;
+    [[nodiscard]] gpu::KernelTimes kernelTimes() const override { return commands_.times(); }
 
   private:
     struct State {
@@ -20,18 +21,12 @@ class FusedPaths : public WaveRenderer {
         [[nodiscard]] gpu::ResourceTable table() const;
         gpu::Buffer paths, lanes, waiting, counters;
     };
-    // The kernels bound to one band of the film.
-    struct Band {
-        Band(gpu::Device& device, const State& state, const WaveInputs& inputs, const FilmBand& film);
-        BandResources resources;
-        gpu::BoundKernel path, accumulate;
-    };
-
     // Runs one dispatch and returns the number of lanes that want another.
-    [[nodiscard]] uint32_t advance(const Band& band, const WaveRange& range, uint32_t lanes);
+    [[nodiscard]] uint32_t advance(const BoundBand& band, const WaveRange& range, uint32_t lanes);
 
     State state_;
-    std::vector<Band> bands_;
+    std::vector<BoundBand> bands_;
+    gpu::Commands commands_;
     uint32_t wave_ = 0; // the one under way
 };
 

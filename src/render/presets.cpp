@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "render/setting_text.h"
 
 namespace lavalight {
 namespace {
@@ -48,18 +49,12 @@ constexpr EstimatorSettings roulette() {
 }
 
 constexpr std::array<Preset, 6> kPresets{{
-    {"naive", "--sampler independent --hemisphere uniform --nee off --roulette off",
-     "Kajiya's estimator as it stands: random directions until light is hit", naive()},
-    {"cosine", "as naive, with --hemisphere cosine",
-     "importance sampling of the cosine: grazing directions count less", cosine()},
-    {"nee", "as cosine, with --nee on --mis off",
-     "next-event estimation: light is sampled directly, and only so", nee()},
-    {"mis", "as nee, with --mis power", "light and BSDF samples combined by Veach's power heuristic", mis()},
-    {"roulette", "as mis, with --roulette throughput",
-     "paths that carry little are ended at random, without bias", roulette()},
-    {"reference",
-     "all defaults: as roulette, with --sampler sobol --light-selection auto --roulette sqrt-throughput",
-     "the best this program knows", EstimatorSettings{}},
+    {"naive", "", "Kajiya's estimator as it stands: random directions until light is hit", naive()},
+    {"cosine", "naive", "importance sampling of the cosine: grazing directions count less", cosine()},
+    {"nee", "cosine", "next-event estimation: light is sampled directly, and only so", nee()},
+    {"mis", "nee", "light and BSDF samples combined by Veach's power heuristic", mis()},
+    {"roulette", "mis", "paths that carry little are ended at random, without bias", roulette()},
+    {"reference", "roulette", "the best this program knows", EstimatorSettings{}},
 }};
 
 } // namespace
@@ -77,6 +72,14 @@ const Preset& findPreset(std::string_view name) {
     for (const Preset& preset : kPresets)
         known += fmt::format("{}{}", known.empty() ? "" : ", ", preset.name);
     throw UsageError(fmt::format("--preset: \"{}\" is not one of {}", name, known));
+}
+
+std::string optionsOf(const Preset& preset) {
+    const EstimatorSettings defaults;
+    if (preset.before.empty())
+        return optionsFrom(defaults, preset.settings);
+    return fmt::format("{}as {}, with {}", preset.settings == defaults ? "all defaults: " : "", preset.before,
+                       optionsFrom(findPreset(preset.before).settings, preset.settings));
 }
 
 } // namespace lavalight

@@ -2,15 +2,16 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <string_view>
 
-#include "render/settings.h"
+#include "render/estimator_settings.h"
 
 namespace lavalight {
 
 struct Preset {
     std::string_view name;
-    std::string_view sets;    // what it sets, as options
+    std::string_view before;  // the preset that it goes one step on from; empty: the defaults
     std::string_view meaning; // what the lecture says of it
     EstimatorSettings settings;
 };
@@ -19,5 +20,8 @@ struct Preset {
 
 // Finds a preset by name. Throws UsageError naming the presets there are.
 [[nodiscard]] const Preset& findPreset(std::string_view name);
+
+// What it sets, as options: "as nee, with --mis power".
+[[nodiscard]] std::string optionsOf(const Preset& preset);
 
 } // namespace lavalight

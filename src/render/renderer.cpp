@@ -28,15 +28,16 @@ constexpr uint32_t kWaveSize = 1u << 18;
 constexpr uint32_t kSamplesTogether = 16;
 
 // Mesa 22.3's lavapipe ends all loops of an invocation without a word after 65,535 turns in sum, and
-// accumulate makes four turns a sample: beyond 16,000 samples it lost some (measured: 1x1 pixel, 65536
-// samples in one wave).
-constexpr uint32_t kMostSamplesTogether = 4096;
+// accumulate makes four turns a sample and plane: beyond 16,000 samples it lost some (measured: 1x1 pixel,
+// 65536 samples in one wave).
+constexpr uint32_t kMostSamplesTogether = 4096; // divided by the film's planes
 
 // Of `remaining` ones: more than kSamplesTogether only where the wave would not be full.
 uint32_t samplesPerWave(uint32_t remaining, uint32_t waveSize, const Film& film) {
     const uint32_t bandPixels =
         film.bands().front().rows * film.width(); // no band has more rows than the first
-    return std::min(remaining, std::clamp(waveSize / bandPixels, kSamplesTogether, kMostSamplesTogether));
+    const auto most = kMostSamplesTogether / static_cast<uint32_t>(film.layout().planes().size());
+    return std::min(remaining, std::clamp(waveSize / bandPixels, kSamplesTogether, most));
 }
 
 // Constant radiance, or what the map's texels are multiplied by.
@@ -148,6 +149,16 @@ struct Renderer::Setup {
     }
 };
 
+// What takes the place of what is there, built beside it.
+struct Renderer::Fresh {
+    RenderSettings settings;
+    FrameParameters frame;
+    std::optional<EstimatorKernels> kernels{}; // none: those there serve, but for:
+    KernelMap changed{};
+    std::optional<AlbedoTable> albedoTable{}; // none: the one there serves
+    std::optional<Film> film{};               // none: the one there serves, emptied
+};
+
 Renderer::Renderer(gpu::Device& device, const Scene& scene, const Camera& camera,
                    const RenderSettings& wanted, const KernelSource& source)
     : Renderer(
@@ -183,10 +194,7 @@ Renderer::Renderer(gpu::Device& device, const RenderSettings& settings, Setup se
     : device_(&device), settings_(settings), frame_(setup.frame), sceneFeatures_(setup.scene.features),
       kernels_(std::move(setup.kernels)), scene_(device, setup.scene, source),
       film_(device, settings.image.width, settings.image.height, settings.work.bandRows),
-      waves_(
-          makeWaveRenderer(device, settings_.work.schedule,
-                           {scene_, scene_.albedoTable().buffer, film_, frame_,
-                            [&](std::string_view name) -> const gpu::Kernel& { return kernels_[name]; }})) {
+      waves_(makeWaves(Fresh{settings_, frame_})) {
     settings_.estimator.lightSelection = setup.lightSelection;
 }
 
@@ -201,16 +209,6 @@ std::vector<std::string> Renderer::changedKernels(const KernelSource& source) co
         names.emplace_back("albedo");
     return names;
 }
-
-// What takes the place of what is there, built beside it.
-struct Renderer::Fresh {
-    RenderSettings settings;
-    FrameParameters frame;
-    std::optional<EstimatorKernels> kernels{}; // none: those there serve, but for:
-    KernelMap changed{};
-    std::optional<AlbedoTable> albedoTable{}; // none: the one there serves
-    std::optional<Film> film{};               // none: the one there serves, emptied
-};
 
 void Renderer::compileChanged(Fresh& fresh, const KernelSource& source) const {
     if (!fresh.kernels)
@@ -238,21 +236,28 @@ void Renderer::restart(const Scene& scene, const Camera& camera, const RenderSet
     compileChanged(fresh, source);
     if (fresh.settings.image.width != film_.width() || fresh.settings.image.height != film_.height())
         fresh.film.emplace(*device_, fresh.settings.image.width, fresh.settings.image.height,
-                           fresh.settings.work.bandRows);
+                           fresh.settings.work.bandRows, film_.layout());
     startAnew(std::move(fresh));
 }
 
-// Everything that may fail comes first; what is bound to kernels and film goes before them.
-void Renderer::startAnew(Fresh fresh) {
+// Bound to what is fresh, and to what there is where nothing is.
+std::unique_ptr<WaveRenderer> Renderer::makeWaves(const Fresh& fresh) const {
+    const Schedule schedule = fresh.settings.work.schedule;
+    const std::vector<std::string_view> names = estimatorKernelNames(schedule);
     const auto kernel = [&](std::string_view name) -> const gpu::Kernel& {
         const auto found = fresh.changed.find(name);
         return found != fresh.changed.end() ? found->second
                                             : (fresh.kernels ? *fresh.kernels : kernels_)[name];
     };
-    std::unique_ptr<WaveRenderer> waves =
-        makeWaveRenderer(*device_, fresh.settings.work.schedule,
-                         {scene_, fresh.albedoTable ? fresh.albedoTable->buffer : scene_.albedoTable().buffer,
-                          fresh.film ? *fresh.film : film_, fresh.frame, kernel});
+    const AlbedoTable& albedo = fresh.albedoTable ? *fresh.albedoTable : scene_.albedoTable();
+    return makeWaveRenderer(
+        *device_, schedule,
+        {scene_, albedo.buffer, fresh.film ? *fresh.film : film_, fresh.frame, names, kernel});
+}
+
+// Everything that may fail comes first; what is bound to kernels and film goes before them.
+void Renderer::startAnew(Fresh fresh) {
+    std::unique_ptr<WaveRenderer> waves = makeWaves(fresh);
     if (!fresh.film)
         emptyFilm();
     waves_ = std::move(waves);
@@ -311,6 +316,7 @@ FilmProgress Renderer::progress() const {
 
 void Renderer::continueFrom(const FilmProgress& progress, const RawFilm& film) {
     assert(progress.passSamples <= settings_.work.waveSize);
+    waves_->finish();
     filmIsEmptied_ = false;
     position_ = {};
     film_.restore(film);
@@ -363,12 +369,12 @@ double Renderer::fractionDone() const {
 
 double errorEstimate(const Rendering& rendering) {
     double sum = 0.0;
-    for (size_t i = 0; i < rendering.radiance.pixels.size(); ++i) {
-        const glm::dvec3 mean(rendering.radiance.pixels[i]);
-        const glm::dvec3 relative = glm::dvec3(rendering.variance.pixels[i]) / (mean * mean + 0.01);
+    for (size_t i = 0; i < rendering.radiance().pixels.size(); ++i) {
+        const glm::dvec3 mean(rendering.radiance().pixels[i]);
+        const glm::dvec3 relative = glm::dvec3(rendering.variance().pixels[i]) / (mean * mean + 0.01);
         sum += relative.x + relative.y + relative.z;
     }
-    return sum / (3.0 * static_cast<double>(rendering.radiance.pixels.size()));
+    return sum / (3.0 * static_cast<double>(rendering.radiance().pixels.size()));
 }
 
 } // namespace lavalight

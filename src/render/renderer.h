@@ -12,7 +12,7 @@
 #include "film/stop_reason.h"
 #include "gpu/commands.h"
 #include "gpu/device.h"
-#include "image/image.h"
+#include "image/rendering.h"
 #include "render/estimator_kernels.h"
 #include "render/film.h"
 #include "render/settings.h"
@@ -74,15 +74,26 @@ class Renderer {
     // Goes on with those kernels, and an empty film. Throws Error as restart() does.
     void reloadKernels(const KernelSource& source);
 
-    [[nodiscard]] const Film& film() const { return film_; }
-    [[nodiscard]] Rendering rendering() const { return film_.resolve(); }
+    // Waits for the waves that are under way, as waves() does: where a device gains from it, a wave is
+    // submitted before the one ahead of it is done.
+    [[nodiscard]] const Film& film() const {
+        waves_->finish();
+        return film_;
+    }
+    [[nodiscard]] Rendering rendering() const { return film().resolve(); }
     [[nodiscard]] const GpuScene& scene() const { return scene_; }
-    [[nodiscard]] const WaveRenderer& waves() const { return *waves_; }
-    // Of all bands; bandPixels is left open.
+    [[nodiscard]] const WaveRenderer& waves() const {
+        waves_->finish();
+        return *waves_;
+    }
+    // The parameters of all bands; bandPixels is left open.
     [[nodiscard]] const FrameParameters& frame() const { return frame_; }
     [[nodiscard]] const EstimatorKernels& kernels() const { return kernels_; }
     // Hands on the kernels; no sample may be taken any more.
-    [[nodiscard]] EstimatorKernels releaseKernels() { return std::move(kernels_).handOn(); }
+    [[nodiscard]] EstimatorKernels releaseKernels() {
+        waves_->finish();
+        return std::move(kernels_).handOn();
+    }
     // With everything resolved that was left to the device.
     [[nodiscard]] const RenderSettings& settings() const { return settings_; }
 
@@ -90,6 +101,7 @@ class Renderer {
     struct Fresh;
     [[nodiscard]] bool wantsAlbedoTable(const KernelSource& source) const;
     void compileChanged(Fresh& fresh, const KernelSource& source) const;
+    [[nodiscard]] std::unique_ptr<WaveRenderer> makeWaves(const Fresh& fresh) const;
     void startAnew(Fresh fresh);
     void emptyFilm();
     [[nodiscard]] uint32_t nextPass() const;

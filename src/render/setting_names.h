@@ -1,4 +1,4 @@
-// The words of the command line for the values of settings.
+// The words of the command line for values of enumerations.
 #pragma once
 
 #include <algorithm>
@@ -20,20 +20,6 @@ struct SettingName {
 template <typename Value>
 [[nodiscard]] std::span<const SettingName<Value>> settingNames();
 
-template <>
-std::span<const SettingName<Sampler>> settingNames();
-template <>
-std::span<const SettingName<Hemisphere>> settingNames();
-template <>
-std::span<const SettingName<LightSelection>> settingNames();
-template <>
-std::span<const SettingName<Mis>> settingNames();
-template <>
-std::span<const SettingName<Roulette>> settingNames();
-template <>
-std::span<const SettingName<Fresnel>> settingNames();
-template <>
-std::span<const SettingName<TextureFilter>> settingNames();
 template <>
 std::span<const SettingName<Schedule>> settingNames();
 template <>

@@ -34,11 +34,18 @@ ToneMapper::ToneMapper(gpu::Device& device, const KernelSource& source)
     gpu::warmUp(device, made);
 }
 
-std::vector<uint32_t> ToneMapper::map(const Film& film, const ToneSettings& tone) {
+std::vector<uint32_t> ToneMapper::map(const Film& film, const ToneSettings& tone, size_t plane) {
+    const FilmLayout& layout = film.layout();
+    const ToneRange range{0,
+                          0,
+                          scaleOf(tone.exposure),
+                          layout.countWord(),
+                          layout.firstWord(plane),
+                          layout.planes()[plane].shape};
     std::vector<uint32_t> pixels(size_t{film.width()} * film.height());
     for (const FilmBand& band : film.bands()) {
         const size_t first = size_t{band.firstRow} * film.width();
-        mapBand(band.sums, kernels_.at(tone.curve), scaleOf(tone.exposure),
+        mapBand(band.sums, kernels_.at(tone.curve), range,
                 std::span(pixels).subspan(first, size_t{band.rows} * film.width()));
     }
     return pixels;
@@ -48,7 +55,7 @@ bool ToneMapper::isChanged(const KernelSource& source) const {
     return source(kKernelName).content != kernels_.begin()->second.code().content;
 }
 
-void ToneMapper::mapBand(const gpu::Buffer& sums, const gpu::Kernel& kernel, float scale,
+void ToneMapper::mapBand(const gpu::Buffer& sums, const gpu::Kernel& kernel, ToneRange range,
                          std::span<uint32_t> pixels) {
     if (display_.bytes() < pixels.size_bytes())
         display_ = gpu::Buffer(*device_, kDisplayName, pixels.size_bytes(), gpu::BufferUse::readback);
@@ -60,9 +67,10 @@ void ToneMapper::mapBand(const gpu::Buffer& sums, const gpu::Kernel& kernel, flo
     const auto count = static_cast<uint32_t>(pixels.size());
     const uint32_t groups = (count + kWorkgroupSize - 1) / kWorkgroupSize;
     const uint32_t most = device_->limits().maxGroups;
+    range.bandPixels = count;
     commands_.begin();
     for (uint32_t first = 0; first < groups; first += most) {
-        const ToneRange range{count, first * kWorkgroupSize, scale};
+        range.firstPixel = first * kWorkgroupSize;
         commands_.dispatch(bound, std::min(most, groups - first), std::as_bytes(std::span(&range, 1)));
     }
     commands_.submitAndWait();

@@ -13,6 +13,7 @@
 #include "kernels/kernel_source.h"
 #include "render/film.h"
 #include "render/tone_settings.h"
+#include "shared/tone.h"
 
 namespace lavalight {
 
@@ -22,10 +23,12 @@ class ToneMapper {
     // Compiles the kernel for every curve. The device must outlive the mapper. Throws Error as `source` does.
     explicit ToneMapper(gpu::Device& device, const KernelSource& source = embeddedKernel);
 
-    // sRGB pixels, rows from the top, each R, G, B, 255 from its lowest byte up. Pixels without samples are
-    // black. Device memory is kept from call to call, as much as the largest band so far took. Not while a
-    // submission writes the film.
-    [[nodiscard]] std::vector<uint32_t> map(const Film& film, const ToneSettings& tone);
+    // sRGB pixels of one of the film's planes, the colour as a rule; rows from the top, each R, G, B, 255
+    // from its lowest byte up. Pixels without samples are black, and so is what is negative. Device memory is
+    // kept from call to call, as much as the largest band so far took. Not while a submission writes the
+    // film.
+    [[nodiscard]] std::vector<uint32_t> map(const Film& film, const ToneSettings& tone,
+                                            size_t plane = kColorPlane);
 
     // Whether the kernel's code is another by `source`. Throws Error as `source` does.
     [[nodiscard]] bool isChanged(const KernelSource& source) const;
@@ -34,7 +37,9 @@ class ToneMapper {
     [[nodiscard]] const gpu::KernelTimes& times() const { return commands_.times(); }
 
   private:
-    void mapBand(const gpu::Buffer& sums, const gpu::Kernel& kernel, float scale, std::span<uint32_t> pixels);
+    // `range`: all but the pixels of a dispatch.
+    void mapBand(const gpu::Buffer& sums, const gpu::Kernel& kernel, ToneRange range,
+                 std::span<uint32_t> pixels);
 
     gpu::Device* device_;
     std::map<ToneCurve, gpu::Kernel> kernels_;

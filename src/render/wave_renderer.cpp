@@ -26,14 +26,22 @@ std::unique_ptr<WaveRenderer> makeWaveRenderer(gpu::Device& device, Schedule sch
     return std::make_unique<Wavefront>(device, inputs);
 }
 
-BandResources::BandResources(gpu::Device& device, const WaveInputs& inputs, const FilmBand& band,
-                             gpu::ResourceTable state)
-    : frame(uploadFrame(device, inputs.frame, band)), table(std::move(state)) {
-    inputs.scene.addTo(table);
-    table.set("albedoTable", inputs.albedoTable);
-    table.set("Tallies", inputs.film.tallies());
-    table.set("Frame", frame);
-    table.set("Film", band.sums);
+BoundBand::BoundBand(gpu::Device& device, const WaveInputs& inputs, const FilmBand& band,
+                     gpu::ResourceTable resources)
+    : frame_(uploadFrame(device, inputs.frame, band)) {
+    inputs.scene.addTo(resources);
+    resources.set("albedoTable", inputs.albedoTable);
+    resources.set("Tallies", inputs.film.tallies());
+    resources.set("Frame", frame_);
+    resources.set("Film", band.sums);
+    for (const std::string_view name : inputs.kernelNames)
+        kernels_.try_emplace(name, device, inputs.kernel(name), resources);
+}
+
+const gpu::BoundKernel& BoundBand::operator[](std::string_view name) const {
+    const auto found = kernels_.find(name);
+    assert(found != kernels_.end());
+    return found->second;
 }
 
 uint32_t groupsFor(uint32_t invocations) {

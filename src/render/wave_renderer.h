@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <span>
 #include <string_view>
@@ -29,19 +30,23 @@ class WaveRenderer {
     WaveRenderer& operator=(const WaveRenderer&) = delete;
 
     // Takes range.sampleCount samples for each of range.pixelCount pixels of band `band` and adds them to the
-    // film. pixelCount * sampleCount must not exceed the wave size.
+    // film, at the latest by finish(). pixelCount * sampleCount must not exceed the wave size.
     virtual void renderWave(size_t band, WaveRange range) = 0;
+
+    // Waits for waves that are still under way: until then, neither the film nor what follows is that of all
+    // waves.
+    virtual void finish() {}
 
     [[nodiscard]] const RayCounts& rays() const { return rays_; }
     // Camera rays, then those to the next vertex, by bounce: the lengths of the queues. Empty where there are
     // no queues.
     [[nodiscard]] const std::vector<uint64_t>& raysPerBounce() const { return raysPerBounce_; }
-    [[nodiscard]] const gpu::KernelTimes& kernelTimes() const { return commands_.times(); }
+    // Device time of all waves; empty on a queue without timestamps.
+    [[nodiscard]] virtual gpu::KernelTimes kernelTimes() const = 0;
 
   protected:
-    explicit WaveRenderer(gpu::Device& device) : commands_(device) {}
+    WaveRenderer() = default;
 
-    gpu::Commands commands_;
     RayCounts rays_;
     std::vector<uint64_t> raysPerBounce_;
 };
@@ -53,6 +58,7 @@ struct WaveInputs {
     const gpu::Buffer& albedoTable; // which may be another than the scene's
     const Film& film;
     const FrameParameters& frame;
+    std::span<const std::string_view> kernelNames; // of the schedule: estimatorKernelNames()
     std::function<const gpu::Kernel&(std::string_view name)> kernel;
 };
 
@@ -60,12 +66,18 @@ struct WaveInputs {
 [[nodiscard]] std::unique_ptr<WaveRenderer> makeWaveRenderer(gpu::Device& device, Schedule schedule,
                                                              const WaveInputs& inputs);
 
-// A band of the film with its frame parameters, added to `state`, the buffers that all bands share.
-struct BandResources {
-    BandResources(gpu::Device& device, const WaveInputs& inputs, const FilmBand& band,
-                  gpu::ResourceTable state);
-    gpu::Buffer frame;
-    gpu::ResourceTable table;
+// The kernels of a schedule, bound to one band of the film.
+class BoundBand {
+  public:
+    // `state`: the buffers that all bands share.
+    BoundBand(gpu::Device& device, const WaveInputs& inputs, const FilmBand& band, gpu::ResourceTable state);
+
+    // The kernel must be one of the schedule's.
+    [[nodiscard]] const gpu::BoundKernel& operator[](std::string_view name) const;
+
+  private:
+    gpu::Buffer frame_;
+    std::map<std::string_view, gpu::BoundKernel> kernels_;
 };
 
 [[nodiscard]] uint32_t groupsFor(uint32_t invocations);

@@ -12,82 +12,127 @@ constexpr uint32_t kBouncesPerSubmission = 8;
 
 } // namespace
 
-Wavefront::State::State(gpu::Device& device, uint32_t slots, uint32_t maxBounces)
+Wavefront::State::State(gpu::Device& device, uint32_t slots)
     : rays(device, "rays", slots * sizeof(Ray), gpu::BufferUse::storage),
       hits(device, "hits", slots * sizeof(Hit), gpu::BufferUse::storage),
       paths(device, "paths", slots * sizeof(Path), gpu::BufferUse::storage),
       shadowRays(device, "shadow rays", slots * sizeof(ShadowRay), gpu::BufferUse::storage),
       queues(device, "queues", 3 * slots * sizeof(uint32_t), gpu::BufferUse::storage),
-      counters(device, "bounce counters", (maxBounces + 2) * sizeof(BounceCounters),
-               gpu::BufferUse::readback),
       dispatchSizes(device, "dispatch sizes", 2 * sizeof(DispatchSize), gpu::BufferUse::storage) {}
 
-gpu::ResourceTable Wavefront::State::table() const {
+Wavefront::Turn::Turn(gpu::Device& device, uint32_t maxBounces)
+    : counters(device, "bounce counters", (maxBounces + 2) * sizeof(BounceCounters),
+               gpu::BufferUse::readback) {}
+
+gpu::ResourceTable Wavefront::tableOf(const Turn& turn) const {
     gpu::ResourceTable resources;
-    resources.set("Rays", rays);
-    resources.set("Hits", hits);
-    resources.set("Paths", paths);
-    resources.set("ShadowRays", shadowRays);
-    resources.set("Queues", queues);
-    resources.set("Counters", counters);
-    resources.set("DispatchSizes", dispatchSizes);
+    resources.set("Rays", state_.rays);
+    resources.set("Hits", state_.hits);
+    resources.set("Paths", state_.paths);
+    resources.set("ShadowRays", state_.shadowRays);
+    resources.set("Queues", state_.queues);
+    resources.set("Counters", turn.counters);
+    resources.set("DispatchSizes", state_.dispatchSizes);
     return resources;
 }
 
-Wavefront::Band::Band(gpu::Device& device, const State& state, const WaveInputs& inputs, const FilmBand& film)
-    : resources(device, inputs, film, state.table()),
-      generate(device, inputs.kernel("generate"), resources.table),
-      extend(device, inputs.kernel("extend"), resources.table),
-      shade(device, inputs.kernel("shade"), resources.table),
-      prepare(device, inputs.kernel("prepare"), resources.table),
-      connect(device, inputs.kernel("connect"), resources.table),
-      accumulate(device, inputs.kernel("accumulate"), resources.table) {}
-
 Wavefront::Wavefront(gpu::Device& device, const WaveInputs& inputs)
-    : WaveRenderer(device), maxBounces_(inputs.frame.maxBounces),
-      state_(device, inputs.frame.waveSize, maxBounces_) {
-    bands_.reserve(inputs.film.bands().size());
-    for (const FilmBand& band : inputs.film.bands())
-        bands_.emplace_back(device, state_, inputs, band);
+    : maxBounces_(inputs.frame.maxBounces), runsAhead_(device.runsAhead()),
+      state_(device, inputs.frame.waveSize) {
+    const size_t turns = runsAhead_ ? 2 : 1;
+    turns_.reserve(turns); // they stay at their addresses
+    for (size_t i = 0; i < turns; ++i) {
+        turns_.emplace_back(device, maxBounces_);
+        commands_.emplace_back(device);
+        bands_.emplace_back().reserve(inputs.film.bands().size());
+        for (const FilmBand& band : inputs.film.bands())
+            bands_.back().emplace_back(device, inputs, band, tableOf(turns_.back()));
+    }
+}
+
+// Waits for the older of two submissions.
+gpu::Commands& Wavefront::startRecording() {
+    recording_ = (recording_ + 1) % commands_.size();
+    commands_[recording_].begin();
+    return commands_[recording_];
+}
+
+void Wavefront::submit(gpu::Commands& commands) const {
+    commands.submit();
+    if (!runsAhead_)
+        commands.wait();
 }
 
 void Wavefront::renderWave(size_t bandIndex, WaveRange range) {
-    const Band& band = bands_[bandIndex];
-    commands_.begin();
-    commands_.fill(state_.counters, 0);
-    commands_.dispatch(band.generate, groupsFor(range.pixelCount * range.sampleCount), pushed(range));
+    gpu::Commands* commands = &startRecording();
+    turn_ = (turn_ + 1) % turns_.size();
+    Turn& turn = turns_[turn_];
+    countRays(turn); // of the wave before the one before, which is done
+    const BoundBand& band = bands_[turn_][bandIndex];
+    commands->fill(turn.counters, 0);
+    commands->dispatch(band["generate"], groupsFor(range.pixelCount * range.sampleCount), pushed(range));
     for (uint32_t bounce = 0; bounce <= maxBounces_; ++bounce) {
         if (bounce > 0 && bounce % kBouncesPerSubmission == 0) {
-            commands_.submitAndWait();
-            commands_.begin();
-            if (state_.counters.downloadAll<BounceCounters>()[bounce].rays == 0)
+            submit(*commands);
+            commands = &startRecording();
+            if (isOver(turn, bounce))
                 break;
         }
-        recordBounce(band, range, bounce);
+        recordBounce(*commands, band, range, bounce);
     }
-    commands_.dispatch(band.accumulate, groupsFor(range.pixelCount), pushed(range));
-    commands_.submitAndWait();
-    countRays();
+    commands->dispatch(band["accumulate"], groupsFor(range.pixelCount), pushed(range));
+    turn.isCounted = false;
+    submit(*commands);
+    if (!runsAhead_)
+        countRays(turn);
 }
 
-void Wavefront::recordBounce(const Band& band, WaveRange range, uint32_t bounce) {
+void Wavefront::finish() {
+    for (size_t i = 1; i <= commands_.size(); ++i) // the older first
+        commands_[(recording_ + i) % commands_.size()].wait();
+    for (Turn& turn : turns_)
+        countRays(turn);
+}
+
+gpu::KernelTimes Wavefront::kernelTimes() const {
+    gpu::KernelTimes sums;
+    for (const gpu::Commands& commands : commands_)
+        for (const auto& [name, time] : commands.times()) {
+            sums[name].seconds += time.seconds;
+            sums[name].dispatches += time.dispatches;
+        }
+    return sums;
+}
+
+// Whether no path is left at the newest bounce that is known to be done: the one just submitted, or the one a
+// submission before. What was submitted for no path does nothing.
+bool Wavefront::isOver(const Turn& turn, uint32_t bounce) const {
+    const uint32_t known = runsAhead_ ? bounce - kBouncesPerSubmission : bounce;
+    return known > 0 && turn.counters.downloadAll<BounceCounters>()[known].rays == 0;
+}
+
+void Wavefront::recordBounce(gpu::Commands& commands, const BoundBand& band, WaveRange range,
+                             uint32_t bounce) const {
     constexpr uint64_t connectSize = 0;
     constexpr uint64_t raySize = sizeof(DispatchSize);
     range.bounce = bounce;
     if (bounce == 0) {
         const uint32_t groups = groupsFor(range.pixelCount * range.sampleCount);
-        commands_.dispatch(band.extend, groups, pushed(range));
-        commands_.dispatch(band.shade, groups, pushed(range));
+        commands.dispatch(band["extend"], groups, pushed(range));
+        commands.dispatch(band["shade"], groups, pushed(range));
     } else {
-        commands_.dispatchIndirect(band.extend, state_.dispatchSizes, raySize, pushed(range));
-        commands_.dispatchIndirect(band.shade, state_.dispatchSizes, raySize, pushed(range));
+        commands.dispatchIndirect(band["extend"], state_.dispatchSizes, raySize, pushed(range));
+        commands.dispatchIndirect(band["shade"], state_.dispatchSizes, raySize, pushed(range));
     }
-    commands_.dispatch(band.prepare, 1, pushed(range));
-    commands_.dispatchIndirect(band.connect, state_.dispatchSizes, connectSize, pushed(range));
+    commands.dispatch(band["prepare"], 1, pushed(range));
+    commands.dispatchIndirect(band["connect"], state_.dispatchSizes, connectSize, pushed(range));
 }
 
-void Wavefront::countRays() {
-    const auto counters = state_.counters.downloadAll<BounceCounters>();
+void Wavefront::countRays(Turn& turn) {
+    if (turn.isCounted)
+        return;
+    turn.isCounted = true;
+    const auto counters = turn.counters.downloadAll<BounceCounters>();
     raysPerBounce_.resize(counters.size());
     rays_.camera += counters.front().rays;
     for (size_t bounce = 0; bounce < counters.size(); ++bounce) {

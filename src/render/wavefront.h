@@ -13,27 +13,37 @@ class Wavefront : public WaveRenderer {
     Wavefront(gpu::Device& device, const WaveInputs& inputs);
 
     void renderWave(size_t band, WaveRange range) override;
+    void finish() override;
+    [[nodiscard]] gpu::KernelTimes kernelTimes() const override;
 
   private:
     // One element per slot, but for queues (three of them) and the few words at the end.
     struct State {
-        State(gpu::Device& device, uint32_t slots, uint32_t maxBounces);
-        [[nodiscard]] gpu::ResourceTable table() const;
-        gpu::Buffer rays, hits, paths, shadowRays, queues, counters, dispatchSizes;
+        State(gpu::Device& device, uint32_t slots);
+        gpu::Buffer rays, hits, paths, shadowRays, queues, dispatchSizes;
     };
-    // The kernels bound to one band of the film.
-    struct Band {
-        Band(gpu::Device& device, const State& state, const WaveInputs& inputs, const FilmBand& film);
-        BandResources resources;
-        gpu::BoundKernel generate, extend, shade, prepare, connect, accumulate;
+    // One of the two waves that may be under way. They share their state, since the device takes one after
+    // the other, but the host looks at the counters of the first while the second counts.
+    struct Turn {
+        Turn(gpu::Device& device, uint32_t maxBounces);
+        gpu::Buffer counters;
+        bool isCounted = true; // by countRays(); false: a wave has filled it
     };
-
-    void recordBounce(const Band& band, WaveRange range, uint32_t bounce);
-    void countRays();
+    [[nodiscard]] gpu::ResourceTable tableOf(const Turn& turn) const;
+    gpu::Commands& startRecording();
+    void submit(gpu::Commands& commands) const;
+    [[nodiscard]] bool isOver(const Turn& turn, uint32_t bounce) const;
+    void recordBounce(gpu::Commands& commands, const BoundBand& band, WaveRange range, uint32_t bounce) const;
+    void countRays(Turn& turn);
 
     uint32_t maxBounces_;
+    bool runsAhead_;
     State state_;
-    std::vector<Band> bands_;
+    std::vector<Turn> turns_;                   // two
+    std::vector<std::vector<BoundBand>> bands_; // of each turn
+    std::vector<gpu::Commands> commands_;       // two, in turn; they end, waiting, before what they use does
+    size_t turn_ = 0;                           // of the newest wave
+    size_t recording_ = 0;                      // of commands_: the newest
 };
 
 } // namespace lavalight

@@ -12,8 +12,8 @@
 
 #include "image/image.h"
 #include "image/picture.h"
+#include "image/pixel_limit.h"
 #include "image/texel.h"
-#include "image/texel_limit.h"
 
 namespace lavalight {
 
@@ -167,11 +167,11 @@ struct Bounds {
     [[nodiscard]] float radius() const { return 0.5f * glm::length(upper - lower); }
 };
 
-// The most triangles of a scene: three 16-byte texels each must fit a texel buffer.
-constexpr uint64_t kMostTriangles = kMostBufferTexels / 3;
+// The most triangles of a scene: three 16-byte texels each must fit into a texel buffer.
+constexpr uint64_t kMostTriangles = kMostTexels / 3;
 
 // The most bytes of all pictures of a scene, which share one texel buffer.
-constexpr uint64_t kMostPictureBytes = kMostBufferTexels * 16;
+constexpr uint64_t kMostPictureBytes = kMostTexels * 16;
 
 // Metres from the origin in each coordinate. Squares of distances up to here, which bounds and falloff need,
 // stay finite in single precision.

@@ -22,7 +22,7 @@ const Camera& pickCamera(const Scene& scene, const std::string& wanted) {
     return scene.cameras[findNamed(names, {wanted, "--camera", "camera", scene.source})];
 }
 
-std::string textOf(const glm::vec3& v) {
+std::string vectorText(const glm::vec3& v) {
     return fmt::format("{},{},{}", v.x, v.y, v.z);
 }
 
@@ -38,7 +38,7 @@ void aim(Camera& camera, const CameraChoice& choice) {
     const std::optional<Camera> aimed =
         lookAtCamera(from, at, choice.up.value_or(glm::vec3(0.0f, 1.0f, 0.0f)));
     if (!aimed)
-        throw UsageError(from == at ? fmt::format("--look-at: {} is where the camera is", textOf(at))
+        throw UsageError(from == at ? fmt::format("--look-at: {} is where the camera is", vectorText(at))
                                     : "--up: it must not be 0,0,0 or lie along the direction of view");
     camera = *aimed;
     camera.focusDistance = glm::dot(at - from, camera.forward);
@@ -98,7 +98,7 @@ OptionPairs describe(const CameraChoice& choice) {
         return value ? std::optional(fmt::format("{}", *value)) : std::nullopt;
     };
     const auto vector = [](const std::optional<glm::vec3>& value) {
-        return value ? std::optional(textOf(*value)) : std::nullopt;
+        return value ? std::optional(vectorText(*value)) : std::nullopt;
     };
     add("look-from", vector(choice.lookFrom));
     add("look-at", vector(choice.lookAt));

@@ -53,6 +53,9 @@ void continueFilm(Renderer& renderer, const FilmFile& file, const std::string& n
         differences({file.metadata, "the checkpoint"}, {ours, "this render"}, alsoDecisive(report.settings));
     if (!difference.empty())
         refuse(fmt::format("it is of another render: {}", difference));
+    if (!(file.film.layout == renderer.film().layout()))
+        refuse(fmt::format("it holds the layers {}, this render takes {}", textOf(file.film.layout),
+                           textOf(renderer.film().layout())));
     const SampleRange wanted = rangesOf(report.settings).front();
     if (file.ranges.size() != 1 || file.ranges.front().first != wanted.first)
         refuse(fmt::format("it is of samples {}, this render of {}", textOf(file.ranges), textOf({wanted})));

@@ -24,6 +24,8 @@ Pairs describeOptions(const RenderReport& report) {
         pairs.emplace_back("at", fmt::format("{}", *report.import.seconds));
     if (!report.import.animation.empty())
         pairs.emplace_back("animation", report.import.animation);
+    if (!report.import.variant.empty())
+        pairs.emplace_back("variant", report.import.variant);
     return pairs;
 }
 
@@ -78,13 +80,6 @@ glm::dvec3 meanOf(const Image& image) {
     return sum / static_cast<double>(image.pixels.size());
 }
 
-uint64_t totalOf(const std::vector<uint32_t>& counts) {
-    uint64_t total = 0;
-    for (const uint32_t count : counts)
-        total += count;
-    return total;
-}
-
 } // namespace
 
 void fillInputs(RenderReport& report, const Scene& scene, const RenderSettings& settings) {
@@ -103,9 +98,9 @@ void fillResults(RenderReport& report, const Renderer& renderer, const gpu::Devi
     report.tallies = renderer.film().readTallies();
     report.sceneBytes = renderer.scene().bytes();
     report.peakDeviceBytes = device.peakAllocatedBytes();
-    report.samples = totalOf(rendering.sampleCounts);
-    report.meanRadiance = meanOf(rendering.radiance);
-    const glm::dvec3 variance = meanOf(rendering.variance);
+    report.samples = rendering.samples();
+    report.meanRadiance = meanOf(rendering.radiance());
+    const glm::dvec3 variance = meanOf(rendering.variance());
     report.meanVariance = (variance.x + variance.y + variance.z) / 3.0;
     report.errorEstimate = errorEstimate(rendering);
     report.ledger = makeLedger(scene, report.settings, report.tallies, report.stop);
@@ -151,7 +146,8 @@ std::string reportJson(const RenderReport& report) {
     json["rays"] = raysJson(report);
     json["samples"] = {{"total", report.samples},
                        {"perSecond", perSecond(report.samples, report.renderSeconds)},
-                       {"dropped", report.tallies.droppedSamples}};
+                       {"dropped", report.tallies.droppedSamples},
+                       {"negative", report.tallies.negativeSamples}};
     json["meanRadiance"] = {report.meanRadiance.x, report.meanRadiance.y, report.meanRadiance.z};
     json["error"] = errorJson(report);
     json["memory"] = {{"sceneBytes", report.sceneBytes}, {"peakDeviceBytes", report.peakDeviceBytes}};

@@ -135,8 +135,8 @@ PixelInspection LiveSide::inspect(const glm::uvec2& pixel, uint32_t sample) {
     inspection.pixel = glm::min(pixel, size - 1u) * glm::uvec2(film.width(), film.height()) / size;
     const Rendering rendering = film.resolve();
     const size_t at = size_t{inspection.pixel.y} * film.width() + inspection.pixel.x;
-    inspection.radiance = rendering.radiance.pixels[at];
-    inspection.variance = rendering.variance.pixels[at];
+    inspection.radiance = rendering.radiance().pixels[at];
+    inspection.variance = rendering.variance().pixels[at];
     inspection.count = rendering.sampleCounts[at];
     inspection.sample = sample;
     if (!tracer_ || !tracer_->serves(*renderer_))

@@ -21,7 +21,7 @@ using Stage = vk::PipelineStageFlagBits;
 using Access = vk::AccessFlagBits;
 using Layout = vk::ImageLayout;
 
-constexpr vk::ImageSubresourceRange kAll(vk::ImageAspectFlagBits::eColor, 0, 1, 0, 1);
+constexpr vk::ImageSubresourceRange kWholeColor(vk::ImageAspectFlagBits::eColor, 0, 1, 0, 1);
 
 std::span<const char* const> surfaceExtensions() {
     uint32_t count = 0;
@@ -61,7 +61,7 @@ void requireSuccess(VkResult result) {
 vk::ImageMemoryBarrier barrier(vk::Image image, std::pair<vk::AccessFlags, vk::AccessFlags> accesses,
                                std::pair<Layout, Layout> layouts) {
     return {accesses.first,          accesses.second,         layouts.first, layouts.second,
-            VK_QUEUE_FAMILY_IGNORED, VK_QUEUE_FAMILY_IGNORED, image,         kAll};
+            VK_QUEUE_FAMILY_IGNORED, VK_QUEUE_FAMILY_IGNORED, image,         kWholeColor};
 }
 
 } // namespace
@@ -233,7 +233,8 @@ void Presenter::drawPictures(const Swapchain::Image& image, float splitAt) {
     const bool isSplit = splitAt < 1.0f && !pictures_[1].isEmpty();
     const uint32_t split = isSplit ? static_cast<uint32_t>(splitAt * static_cast<float>(window.x)) : window.x;
     if (pictures_[0].isEmpty())
-        commands.clearColorImage(image.image, Layout::eTransferDstOptimal, vk::ClearColorValue(), kAll);
+        commands.clearColorImage(image.image, Layout::eTransferDstOptimal, vk::ClearColorValue(),
+                                 kWholeColor);
     else if (split > 0)
         pictures_[0].draw(commands, {image.image, window, {0, 0}, {split, window.y}});
     if (isSplit && split < window.x)

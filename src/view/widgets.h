@@ -1,6 +1,8 @@
 // Small pieces of the panel that repeat.
 #pragma once
 
+#include <algorithm>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -34,12 +36,15 @@ inline bool offer(size_t index, const std::string& text, bool isChosen) {
     return isPicked;
 }
 
-// Draws a setting by its names on the command line. Returns whether it was changed.
+// Draws one of several values by their names on the command line. Returns whether it was changed.
 template <typename Value>
-bool choose(const char* label, Value& value, const char* meaning) {
+bool chooseAmong(const char* label, std::span<const SettingName<Value>> names, Value& value,
+                 const char* meaning) {
     bool isChanged = false;
-    if (ImGui::BeginCombo(label, std::string(nameOf(value)).c_str())) {
-        for (const SettingName<Value>& name : settingNames<Value>()) {
+    const auto chosen =
+        std::find_if(names.begin(), names.end(), [&](const auto& name) { return name.value == value; });
+    if (ImGui::BeginCombo(label, std::string(chosen->name).c_str())) {
+        for (const SettingName<Value>& name : names) {
             if (ImGui::Selectable(std::string(name.name).c_str(), name.value == value)) {
                 isChanged = value != name.value;
                 value = name.value;
@@ -49,6 +54,11 @@ bool choose(const char* label, Value& value, const char* meaning) {
     }
     explain(meaning);
     return isChanged;
+}
+
+template <typename Value>
+bool choose(const char* label, Value& value, const char* meaning) {
+    return chooseAmong(label, settingNames<Value>(), value, meaning);
 }
 
 inline bool tick(const char* label, bool& value, const char* meaning) {

@@ -127,7 +127,7 @@ TEST_F(CheckpointTest, OrdinaryRendersMayHaveOneToo) {
     };
     expectSuccess(with(words, {"-o", "a.exr", "--checkpoint", "c.exr"}));
     expectSuccess(with(words, {"-o", "b.exr", "--checkpoint", "c.exr", "--resume"}));
-    EXPECT_EQ(readExr(at("a.exr")).radiance.pixels, readExr(at("b.exr")).radiance.pixels);
+    EXPECT_EQ(readExr(at("a.exr")).radiance().pixels, readExr(at("b.exr")).radiance().pixels);
     EXPECT_NE(test::errorOf([&] { (void)readFilmFile(at("a.exr")); }), "") << "its image holds no film";
 }
 

@@ -27,8 +27,8 @@ using test::TemporaryFolder;
 
 Rendering grey(uint32_t side, float radiance, float variance) {
     Rendering rendering{Image(side, side), Image(side, side), std::vector<uint32_t>(size_t{side} * side, 4)};
-    std::fill(rendering.radiance.pixels.begin(), rendering.radiance.pixels.end(), glm::vec3(radiance));
-    std::fill(rendering.variance.pixels.begin(), rendering.variance.pixels.end(), glm::vec3(variance));
+    std::fill(rendering.radiance().pixels.begin(), rendering.radiance().pixels.end(), glm::vec3(radiance));
+    std::fill(rendering.variance().pixels.begin(), rendering.variance().pixels.end(), glm::vec3(variance));
     return rendering;
 }
 
@@ -150,7 +150,7 @@ TEST_F(Compare, PngFilesAreComparedInLinearValuesAndByLdrFlip) {
 
 TEST_F(Compare, ASignificanceIsHowOftenEqualRendersMayFail) {
     Rendering shifted = grey(32, 1.0f, 0.005f);
-    for (glm::vec3& p : shifted.radiance.pixels)
+    for (glm::vec3& p : shifted.radiance().pixels)
         p += 0.0125f; // 4 standard deviations of the whole image, 2 of a tile: p = 3 * 3 * 6.3e-5
     writeExr(folder_ / "shifted.exr", shifted, {});
     EXPECT_EQ(run({"compare", "shifted.exr", "a.exr"}).exitCode, 0);
@@ -160,7 +160,7 @@ TEST_F(Compare, ASignificanceIsHowOftenEqualRendersMayFail) {
 
 TEST_F(Compare, NanIsAlwaysADifference) {
     Rendering broken = grey(32, 1.0f, 0.005f);
-    broken.radiance.pixels[5].y = std::numeric_limits<float>::quiet_NaN();
+    broken.radiance().pixels[5].y = std::numeric_limits<float>::quiet_NaN();
     writeExr(folder_ / "nan.exr", broken, {});
     const ProgramResult result = run({"compare", "nan.exr", "a.exr", "--flip-threshold", "1", "--json"});
     EXPECT_EQ(result.exitCode, 1);

@@ -88,7 +88,7 @@ TEST_F(Merge, SamplesFromZeroAreThoseOfAnOrdinaryRender) {
     render("0:4", "a.exr");
     const ProgramResult result = run({"render", "--size", "20x15", "--spp", "4", "--quiet", "-o", "b.exr"});
     ASSERT_EQ(result.exitCode, 0) << result.err;
-    EXPECT_EQ(readExr(at("a.exr")).radiance.pixels, readExr(at("b.exr")).radiance.pixels);
+    EXPECT_EQ(readExr(at("a.exr")).radiance().pixels, readExr(at("b.exr")).radiance().pixels);
     expectUnmergeable("a.exr", "b.exr", "b.exr: it holds no exact film");
 }
 

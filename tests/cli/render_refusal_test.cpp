@@ -121,10 +121,9 @@ TEST_F(RenderRefusal, EnvironmentsThatCannotBe) {
 }
 
 TEST_F(RenderRefusal, OptionValuesThatCannotBe) {
-    expectRefusal({"--mis", "best"}, kWrongUsage, "best not in {balance,off,power}");
+    expectRefusal({"--mis", "best"}, kWrongUsage, "--mis: \"best\" is not one of power, balance, off");
     expectRefusal({"--mis", "1"}, kWrongUsage, "--mis"); // the number behind a name is no name
-    expectRefusal({"--roulette", "russian"}, kWrongUsage,
-                  "russian not in {constant,max-albedo,mean-albedo,off,sqrt-throughput,throughput}");
+    expectRefusal({"--roulette", "russian"}, kWrongUsage, "--roulette");
     expectRefusal({"--nee", "maybe"}, kWrongUsage, "--nee");
     expectRefusal({"--require-device", "tpu"}, kWrongUsage, "tpu not in {any,cpu,gpu}");
     for (const char* option :

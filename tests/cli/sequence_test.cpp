@@ -47,7 +47,7 @@ class Sequence : public testing::Test {
     }
 
     [[nodiscard]] std::vector<glm::vec3> pixels(const std::string& file) const {
-        return readExr(folder_ / file).radiance.pixels;
+        return readExr(folder_ / file).radiance().pixels;
     }
 
     const TemporaryFolder folder_;

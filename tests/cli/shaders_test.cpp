@@ -43,7 +43,7 @@ class Shaders : public testing::Test {
         return values.contains(key) ? values.at(key) : "";
     }
     [[nodiscard]] std::vector<glm::vec3> pixels(const std::string& file) const {
-        return readExr(folder_ / file).radiance.pixels;
+        return readExr(folder_ / file).radiance().pixels;
     }
 
     const TemporaryFolder folder_;

@@ -58,7 +58,7 @@ TEST_F(Trace, PathsAreThoseOfTheRender) {
         words = settings;
         words.insert(words.end(), {"--pixel", std::to_string(pixel.x) + "," + std::to_string(pixel.y)});
         const json path = trace(words);
-        expectNear(vectorOf(path.at("radiance")), image.radiance.at(pixel.x, pixel.y));
+        expectNear(vectorOf(path.at("radiance")), image.radiance().at(pixel.x, pixel.y));
         expectNear(sumOf(path), vectorOf(path.at("radiance")));
     }
 }

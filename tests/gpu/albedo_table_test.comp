@@ -1,6 +1,6 @@
 #version 460
-// The tabulated albedos of the GGX lobe and of sheen beside brute-force integrals of the lobes that shading evaluates: kStrata answers to
-// a question, each a row of strata, since lavapipe ends all loops of an invocation after 65,535 turns without a word.
+// The tabulated albedos of the GGX lobe and of sheen beside brute-force integrals of the lobes that shading evaluates: kStrata
+// answers to a question, each a row of strata, since lavapipe ends all loops of an invocation after 65,535 turns without a word.
 #include "lib/bsdf/sheen.glsl"
 #include "lib/bsdf/specular.glsl"
 #include "scene/albedo_table.glsl"

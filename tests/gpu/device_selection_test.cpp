@@ -1,9 +1,13 @@
 // Which device is taken, and why others are not: of machines that are not there.
 #include "gpu/device_selection.h"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "base/error.h"
+#include "kernels/kernel_source.h"
+#include "kernels/shader_overlay.h"
 
 namespace lavalight::gpu {
 namespace {
@@ -70,7 +74,7 @@ TEST(DeviceSelection, SaysOfEachDeviceWhyItWasNotTaken) {
 vk::PhysicalDeviceLimits leastLimits() {
     vk::PhysicalDeviceLimits limits;
     limits.maxPerStageDescriptorStorageBuffers = 8;
-    limits.maxPerStageDescriptorSampledImages = 8;
+    limits.maxPerStageDescriptorSampledImages = 16;
     limits.maxComputeWorkGroupInvocations = 64;
     limits.maxTexelBufferElements = 1u << 20;
     return limits;
@@ -87,14 +91,10 @@ TEST(DeviceSelection, EachThingThatIsMissingIsNamedWithWhatIsNeeded) {
     EXPECT_EQ(whatIsMissing(leastLimits(), leastSubgroup()), std::vector<std::string>());
     vk::PhysicalDeviceLimits limits = leastLimits();
     --limits.maxPerStageDescriptorStorageBuffers;
-    --limits.maxPerStageDescriptorSampledImages;
     --limits.maxComputeWorkGroupInvocations;
-    --limits.maxTexelBufferElements;
     EXPECT_EQ(whatIsMissing(limits, leastSubgroup()),
               (std::vector<std::string>{"7 storage buffers per stage, 8 needed",
-                                        "7 texel buffers per stage, 8 needed",
-                                        "workgroups of 63 invocations at most, 64 needed",
-                                        "texel buffers of 1048575 elements at most, 1048576 needed"}));
+                                        "workgroups of 63 invocations at most, 64 needed"}));
     vk::PhysicalDeviceSubgroupProperties subgroup = leastSubgroup();
     subgroup.supportedOperations = vk::SubgroupFeatureFlagBits::eBasic;
     EXPECT_EQ(whatIsMissing(leastLimits(), subgroup),
@@ -103,6 +103,39 @@ TEST(DeviceSelection, EachThingThatIsMissingIsNamedWithWhatIsNeeded) {
     subgroup.supportedStages = vk::ShaderStageFlagBits::eFragment;
     EXPECT_EQ(whatIsMissing(leastLimits(), subgroup),
               std::vector<std::string>{"no subgroup operations in compute shaders"});
+}
+
+// Storage buffers for texels and all else.
+TEST(DeviceSelection, TexelBuffersThatAreTooSmallOrTooFewTakeStorageBuffersInstead) {
+    for (const bool areSmall : {true, false}) {
+        vk::PhysicalDeviceLimits limits = leastLimits();
+        EXPECT_TRUE(hasTexelBuffers(limits));
+        --(areSmall ? limits.maxTexelBufferElements : limits.maxPerStageDescriptorSampledImages);
+        EXPECT_FALSE(hasTexelBuffers(limits));
+        EXPECT_EQ(whatIsMissing(limits, leastSubgroup()),
+                  std::vector<std::string>{"8 storage buffers per stage, 24 needed"});
+        limits.maxPerStageDescriptorStorageBuffers = 24;
+        EXPECT_EQ(whatIsMissing(limits, leastSubgroup()), std::vector<std::string>());
+    }
+}
+
+TEST(DeviceSelection, NoKernelDeclaresMoreBuffersThanAreAskedFor) {
+    size_t kernels = 0;
+    uint32_t mostTexelBuffers = 0;
+    for (const std::string& path : embeddedShaderPaths()) {
+        if (!path.starts_with("kernels/") || !path.ends_with(".comp"))
+            continue;
+        const KernelCode code = embeddedKernel(path.substr(8, path.size() - 13));
+        const auto count = [&](BindingKind kind) {
+            return static_cast<uint32_t>(std::ranges::count(code.bindings, kind, &KernelBinding::kind));
+        };
+        EXPECT_LE(count(BindingKind::storageBuffer), kMostStorageBuffers) << path;
+        EXPECT_LE(count(BindingKind::uniformTexelBuffer), kMostTexelBuffers) << path;
+        mostTexelBuffers = std::max(mostTexelBuffers, count(BindingKind::uniformTexelBuffer));
+        ++kernels;
+    }
+    EXPECT_GT(kernels, 10u);
+    EXPECT_GE(mostTexelBuffers, 15u) << "the limit is a measured one";
 }
 
 } // namespace

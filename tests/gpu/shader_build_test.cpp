@@ -7,6 +7,7 @@
 #include "base/file.h"
 #include "gpu/shader_build.h"
 #include "gpu/spirv_passes.h"
+#include "gpu/texel_storage.h"
 #include "kernels/accelerator_name.h"
 #include "kernels/kernel_source.h"
 #include "support/temporary_folder.h"
@@ -104,7 +105,7 @@ TEST_F(ShaderBuildTest, AMissingIncludeIsNamed) {
 
 TEST_F(ShaderBuildTest, BindingsAndPushConstantsAreFoundByName) {
     write("kernel.comp", "#version 460\nlayout(local_size_x = 1) in;\n"
-                         "layout(set = 0, binding = 7) uniform usamplerBuffer nodes;\n"
+                         "layout(set = 0, binding = 7) uniform utextureBuffer nodes;\n"
                          "layout(set = 0, binding = 2, std430) buffer Words { uint words[]; };\n"
                          "layout(set = 0, binding = 4, std430) buffer Unused { uint unused[]; };\n"
                          "layout(set = 0, binding = 5, std140) uniform Numbers { uint d; };\n"
@@ -122,6 +123,28 @@ TEST_F(ShaderBuildTest, BindingsAndPushConstantsAreFoundByName) {
     EXPECT_EQ(code.bindings[2].binding, 7u);
     EXPECT_EQ(code.bindings[2].kind, gpu::BindingKind::uniformTexelBuffer);
     EXPECT_EQ(code.pushConstantBytes, 12u);
+}
+
+// That it still reads the same is what tests/image/device_memory_test.cpp shows.
+TEST_F(ShaderBuildTest, TexelBuffersBecomeStorageBuffersOfTheirNamesAndBindings) {
+    write("kernel.comp", "#version 460\nlayout(local_size_x = 1) in;\n"
+                         "layout(set = 0, binding = 7) uniform utextureBuffer nodes;\n"
+                         "layout(set = 0, binding = 2, std430) buffer Words { uint words[]; };\n"
+                         "void main() { words[0] = texelFetch(nodes, 3).x; }\n");
+    const gpu::KernelCode code = gpu::withTexelsInStorage(compile("kernel.comp"));
+    ASSERT_EQ(code.bindings.size(), 2u);
+    EXPECT_EQ(code.bindings[1].name, "nodes");
+    EXPECT_EQ(code.bindings[1].binding, 7u);
+    EXPECT_EQ(code.bindings[1].kind, gpu::BindingKind::storageBuffer);
+    EXPECT_EQ(code.content, compile("kernel.comp").content);
+}
+
+TEST_F(ShaderBuildTest, WhatDoesMoreWithTexelBuffersThanFetchIsRefusedByName) {
+    write("size.comp", "#version 460\nlayout(local_size_x = 1) in;\n"
+                       "layout(set = 0, binding = 7) uniform utextureBuffer nodes;\n"
+                       "layout(set = 0, binding = 2, std430) buffer Words { int words[]; };\n"
+                       "void main() { words[0] = textureSize(nodes); }\n");
+    EXPECT_THROW((void)gpu::withTexelsInStorage(compile("size.comp")), Error);
 }
 
 TEST_F(ShaderBuildTest, TwoBlocksOnOneBindingAreRefused) {

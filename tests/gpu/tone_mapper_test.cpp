@@ -42,7 +42,7 @@ class ToneMapperTest : public DeviceTest {
 TEST_F(ToneMapperTest, EveryPixelIsTheFilmsMeanExposedMappedAndRounded) {
     const auto renderer = render(40, 36, 7);
     ASSERT_EQ(renderer->film().bands().size(), 6u);
-    const Image mean = renderer->film().resolve().radiance;
+    const Image mean = renderer->film().resolve().radiance();
     for (const SettingName<ToneCurve>& curve : settingNames<ToneCurve>())
         for (const float exposure : {-1.5f, 0.0f, 3.0f}) {
             const std::vector<uint32_t> pixels = mapper_.map(renderer->film(), {curve.value, exposure});
@@ -81,7 +81,7 @@ TEST_F(ToneMapperTest, PixelsWithoutSamplesAreBlackWhateverTheCurveAndTheExposur
 
 TEST_F(ToneMapperTest, ExposuresWithoutMeasureEndInBlackAndWhite) {
     const auto renderer = render(40, 36, 0);
-    const Image mean = renderer->film().resolve().radiance;
+    const Image mean = renderer->film().resolve().radiance();
     const std::vector<uint32_t> bright = mapper_.map(renderer->film(), {ToneCurve::linear, 1000.0f});
     for (size_t i = 0; i < bright.size(); ++i)
         for (glm::length_t c = 0; c < 3; ++c)

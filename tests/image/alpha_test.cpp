@@ -77,7 +77,7 @@ TEST_F(Alpha, AMaskPassesAllBelowItsCutoffAndNothingElse) {
     const RenderResult result =
         renderScene(device(), textured(AlphaMode::mask, 128.0f / 255.0f), imageSettings(16, 16, 16));
     for (uint32_t y = 0; y < 16; ++y)
-        EXPECT_EQ(result.rendering.radiance.pixels[y * 16 + 8].g, y >= 12 ? 1.0f : 0.0f) << y;
+        EXPECT_EQ(result.rendering.radiance().pixels[y * 16 + 8].g, y >= 12 ? 1.0f : 0.0f) << y;
 }
 
 TEST_F(Alpha, TheColoursOfVerticesHaveAlphaToo) {

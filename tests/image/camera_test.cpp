@@ -44,7 +44,7 @@ class LensTest : public DeviceTest {
                 .build();
         RenderSettings settings = imageSettings(kSide, kSide, 1024);
         settings.estimator.maxBounces = 0;
-        const Image image = renderScene(device(), scene, settings).rendering.radiance;
+        const Image image = renderScene(device(), scene, settings).rendering.radiance();
         Spot spot;
         for (uint32_t y = 0; y < kSide; ++y)
             for (uint32_t x = 0; x < kSide; ++x) {
@@ -103,8 +103,8 @@ TEST_F(PanoramaTest, OfAnEnvironmentMapIsThatMap) {
                         double{kSteps * kSteps};
             const size_t pixel = size_t{y} * 16 + x;
             for (glm::length_t c = 0; c < 3; ++c)
-                ASSERT_NEAR(image.radiance.pixels[pixel][c], mean[c],
-                            kSigmas * std::sqrt(image.variance.pixels[pixel][c]) + 1e-3)
+                ASSERT_NEAR(image.radiance().pixels[pixel][c], mean[c],
+                            kSigmas * std::sqrt(image.variance().pixels[pixel][c]) + 1e-3)
                     << x << ", " << y;
         }
 }

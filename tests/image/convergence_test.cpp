@@ -24,9 +24,8 @@ constexpr uint32_t kSide = 32;
 Image cornellBoxReference() {
     const ExrFile file =
         readExr(std::filesystem::path(LAVALIGHT_SOURCE_DIR) / "tests/references/cornell-box.exr");
-    return downsample({file.radiance, file.variance.value(), file.sampleCounts.value()},
-                      file.radiance.width / kSide)
-        .radiance;
+    return downsample({file.radiance(), file.variance(), file.sampleCounts}, file.radiance().width / kSide)
+        .radiance();
 }
 
 // Of the variance of a pixel's mean, over channels and the pixels that see no light themselves: the edge of a
@@ -42,7 +41,7 @@ double illuminationVariance(const Rendering& rendering, const Image& emission) {
                     seesLight = seesLight || emission.at(i, j) != glm::vec3(0.0f);
             if (seesLight)
                 continue;
-            const glm::vec3 variance = rendering.variance.at(x, y);
+            const glm::vec3 variance = rendering.variance().at(x, y);
             sum += (double{variance.x} + double{variance.y} + double{variance.z}) / 3.0;
             ++pixels;
         }
@@ -63,7 +62,7 @@ class ConvergenceTest : public DeviceTest {
         double sum = 0.0;
         for (uint32_t seed = 0; seed < kSeeds; ++seed) {
             settings.estimator.seed = seed;
-            sum += std::pow(rmse(render("cornell-box", settings).radiance, reference), 2.0) / kSeeds;
+            sum += std::pow(rmse(render("cornell-box", settings).radiance(), reference), 2.0) / kSeeds;
         }
         return sum;
     }
@@ -82,7 +81,7 @@ TEST_F(ConvergenceTest, SelectionByPowerHasAThirdOfTheVarianceOfUniformAmongMany
     RenderSettings settings = imageSettings(64, 64, 1);
     settings.estimator.maxBounces = 0;
     settings.stop.samples = 64;
-    const Image emission = render("many-lights", settings).radiance;
+    const Image emission = render("many-lights", settings).radiance();
     settings = imageSettings(64, 64, 256);
     const double power = illuminationVariance(render("many-lights", settings), emission);
     settings.estimator.lightSelection = LightSelection::uniform;
@@ -105,7 +104,7 @@ TEST_F(ConvergenceTest, ARenderStopsAtTheErrorItWasAskedFor) {
         EXPECT_EQ(renderer.render([](double) { return true; }), StopReason::targetError);
         const Rendering image = renderer.rendering();
         const double estimate = errorEstimate(image);
-        const double error = relMse(image.radiance, reference);
+        const double error = relMse(image.radiance(), reference);
         std::cout << image.sampleCounts.front() << " samples: estimated " << estimate << ", true " << error
                   << "\n";
         EXPECT_LE(estimate, settings.stop.targetError);

@@ -112,9 +112,9 @@ TEST_P(GlossyFurnace, NeverReflectsMoreThanItReceives) {
     const Scene scene = builder.environment(glm::vec3(1.0f)).camera(kWholeBody).build();
     const Rendering rendering =
         downsample(renderScene(device(), scene, imageSettings(64, 64, 64)).rendering, 8);
-    for (size_t i = 0; i < rendering.radiance.pixels.size(); ++i) {
-        const double allowed = 1.0 + kRounding + kSigmas * std::sqrt(rendering.variance.pixels[i].g);
-        EXPECT_LE(rendering.radiance.pixels[i].g, allowed) << "tile " << i;
+    for (size_t i = 0; i < rendering.radiance().pixels.size(); ++i) {
+        const double allowed = 1.0 + kRounding + kSigmas * std::sqrt(rendering.variance().pixels[i].g);
+        EXPECT_LE(rendering.radiance().pixels[i].g, allowed) << "tile " << i;
     }
     EXPECT_GT(meanOf(rendering).mean.g, gloss.metallic > 0.0f || gloss.isSmooth ? 0.7 : 0.998);
 }

@@ -115,9 +115,9 @@ TEST_F(Layers, DispersedLightIsThatOfThreeIndices) {
     for (glm::length_t channel = 0; channel < 3; ++channel) {
         const float own = ior + halfSpread * static_cast<float>(channel - 1);
         const Rendering single = renderScene(device(), prism(own, 0.0f), settings).rendering;
-        for (size_t i = 0; i < joined.radiance.pixels.size(); ++i) {
-            joined.radiance.pixels[i][channel] = single.radiance.pixels[i][channel];
-            joined.variance.pixels[i][channel] = single.variance.pixels[i][channel];
+        for (size_t i = 0; i < joined.radiance().pixels.size(); ++i) {
+            joined.radiance().pixels[i][channel] = single.radiance().pixels[i][channel];
+            joined.variance().pixels[i][channel] = single.variance().pixels[i][channel];
         }
     }
     expectSameMean(dispersed, joined, 8);

@@ -90,8 +90,9 @@ class OtherTrees : public DeviceTest {
         Film film(device(), kSize, kSize, 0);
         film.clear();
         const auto kernel = [&](std::string_view name) -> const gpu::Kernel& { return (*kernels_)[name]; };
+        const std::vector<std::string_view> names = estimatorKernelNames(settings_.work.schedule);
         makeWaveRenderer(device(), settings_.work.schedule,
-                         {gpuScene, gpuScene.albedoTable().buffer, film, frame, kernel})
+                         {gpuScene, gpuScene.albedoTable().buffer, film, frame, names, kernel})
             ->renderWave(0, {0, kSize * kSize, 0, settings_.stop.samples, 0, 0, 0, 0, 0});
         return film.bands().front().sums.downloadAll<uint32_t>();
     }

@@ -22,16 +22,16 @@ class Reference : public DeviceTest {};
 // The file's pixels with their variance, as tests/references/README.md describes them.
 Rendering readReference(const std::string& name) {
     const ExrFile file = readExr(std::filesystem::path(LAVALIGHT_SOURCE_DIR) / "tests/references" / name);
-    return {file.radiance, file.variance.value(), file.sampleCounts.value()};
+    return {file.radiance(), file.variance(), file.sampleCounts};
 }
 
 TEST_F(Reference, CornellBoxAtTwiceTheSizeIsTheOneOfMitsuba) {
     const Rendering reference = readReference("cornell-box.exr");
     const RenderResult result = renderScene(device(), loadScene("cornell-box"), imageSettings(256, 256, 64));
-    EXPECT_EQ(countNonFinite(result.rendering.radiance), 0u);
+    EXPECT_EQ(countNonFinite(result.rendering.radiance()), 0u);
     EXPECT_EQ(result.tallies.droppedSamples, 0u);
     const MeanDifference difference =
-        relativeMeanDifference(downsample(result.rendering, 2).radiance, reference.radiance);
+        relativeMeanDifference(downsample(result.rendering, 2).radiance(), reference.radiance());
     for (glm::length_t c = 0; c < 3; ++c)
         EXPECT_LT(std::abs(difference.perChannel[c]), 0.005) << "channel " << c;
 }
@@ -54,13 +54,13 @@ TEST_P(StoredReference, IsWhatWeRender) {
     const Rendering reference = readReference(std::string(stored.scene) + ".exr");
     const RenderResult result =
         renderScene(device(), loadScene(stored.scene),
-                    imageSettings(reference.radiance.width, reference.radiance.height, stored.samples));
+                    imageSettings(reference.radiance().width, reference.radiance().height, stored.samples));
     const Rendering& ours = result.rendering;
-    EXPECT_EQ(countNonFinite(ours.radiance), 0u);
+    EXPECT_EQ(countNonFinite(ours.radiance()), 0u);
     EXPECT_EQ(result.tallies.droppedSamples, 0u);
-    const double difference = relativeMeanDifference(ours.radiance, reference.radiance).overall;
+    const double difference = relativeMeanDifference(ours.radiance(), reference.radiance()).overall;
     const ZTest z =
-        tileZTest(ours.radiance, ours.variance, reference.radiance, reference.variance, stored.tile);
+        tileZTest(ours.radiance(), ours.variance(), reference.radiance(), reference.variance(), stored.tile);
     std::cout << "mean " << 100.0 * difference << " % apart; " << 100.0 * z.fractionBelow(3.3f)
               << " % of the tiles below 3.3, largest |z| " << z.maxAbsZ << "\n";
     EXPECT_LT(std::abs(difference), 0.005);
@@ -68,7 +68,7 @@ TEST_P(StoredReference, IsWhatWeRender) {
     expectSameMean(ours, reference, 16);
     if (HasFailure())
         ADD_FAILURE() << "difference times 10: "
-                      << writeDifference(ours.radiance, reference.radiance, 10.0f, stored.scene);
+                      << writeDifference(ours.radiance(), reference.radiance(), 10.0f, stored.scene);
 }
 
 // Light through the glass ball comes as rare bright samples: with as few as these the sums of smaller tiles
@@ -107,15 +107,15 @@ class Assets : public DeviceTest {
 
 TEST_F(Assets, BitterlisCornellBoxIsTheOneOfTungsten) {
     constexpr uint32_t size = 128;
-    const Image file = readExr(folder_ / "CornellBox-Bitterli/reference.exr").radiance;
+    const Image file = readExr(folder_ / "CornellBox-Bitterli/reference.exr").radiance();
     ASSERT_EQ(file.width % size, 0u);
     ASSERT_EQ(file.width, file.height);
     const Rendering full{file, Image(file.width, file.height), std::vector<uint32_t>(file.pixels.size())};
-    const Image reference = downsample(full, file.width / size).radiance;
+    const Image reference = downsample(full, file.width / size).radiance();
     const RenderResult result =
         renderScene(device(), load("CornellBox-Bitterli"), imageSettings(size, size, 64));
     EXPECT_EQ(result.tallies.droppedSamples, 0u);
-    const Image& ours = result.rendering.radiance;
+    const Image& ours = result.rendering.radiance();
     const MeanDifference difference = relativeMeanDifference(ours, reference);
     EXPECT_LT(std::abs(difference.overall), 0.01);
     for (glm::length_t c = 0; c < 3; ++c)
@@ -132,7 +132,7 @@ TEST_F(Assets, RealScenesRenderWithoutNonFiniteSamples) {
         const RenderResult result = renderScene(device(), load(name), imageSettings(48, 32, 4));
         EXPECT_EQ(result.tallies.droppedSamples, 0u);
         EXPECT_EQ(result.tallies.saturatedSums, 0u);
-        EXPECT_EQ(countNonFinite(result.rendering.radiance), 0u);
+        EXPECT_EQ(countNonFinite(result.rendering.radiance()), 0u);
         EXPECT_GT(meanOf(result.rendering).mean.g, 0.0);
     }
 }

@@ -27,7 +27,7 @@ Scene rectangleUnderTheSky(const Material& material) {
 
 double totalVariance(const Rendering& rendering) {
     double sum = 0.0;
-    for (const glm::vec3& variance : rendering.variance.pixels)
+    for (const glm::vec3& variance : rendering.variance().pixels)
         sum += variance.r + variance.g + variance.b;
     return sum;
 }
@@ -42,7 +42,8 @@ TEST_F(SurfaceDetail, BaseColourIsFactorTimesTextureTimesVertexColour) {
     const RenderResult result = renderScene(device(), scene, imageSettings(8, 8, 4));
     for (uint32_t x = 0; x < 8; ++x) {
         const glm::vec3 expected = x < 4 ? glm::vec3(0.5f, 0.2f, 0.0f) : glm::vec3(0.1f, 1.0f, 0.2f);
-        EXPECT_LT(glm::length(result.rendering.radiance.pixels[x] - expected), 3e-5f) << x; // 16-bit colours
+        EXPECT_LT(glm::length(result.rendering.radiance().pixels[x] - expected), 3e-5f)
+            << x; // 16-bit colours
     }
 }
 
@@ -75,7 +76,7 @@ TEST_F(SurfaceDetail, VertexColoursAreMixedByTheirDistance) {
     const RenderResult result = renderScene(device(), scene, imageSettings(8, 8, 256));
     for (uint32_t y = 0; y < 8; ++y)
         for (uint32_t x = 0; x < 8; ++x) {
-            const glm::vec3& pixel = result.rendering.radiance.pixels[y * 8 + x];
+            const glm::vec3& pixel = result.rendering.radiance().pixels[y * 8 + x];
             EXPECT_NEAR(pixel.r, (static_cast<float>(x) + 0.5f) / 8.0f, 0.02f);
             EXPECT_NEAR(pixel.g, (7.5f - static_cast<float>(y)) / 8.0f, 0.02f);
         }

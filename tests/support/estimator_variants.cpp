@@ -1,57 +1,48 @@
 #include "support/estimator_variants.h"
 
-#include <functional>
 #include <iostream>
+#include <utility>
+#include <variant>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "base/error.h"
+#include "render/setting_text.h"
 #include "support/mean_test.h"
 #include "support/render_scene.h"
 
 namespace lavalight::test {
 namespace {
 
-using Change = std::function<void(EstimatorSettings&)>;
-
 constexpr uint32_t kSide = 32;
 constexpr uint32_t kMaxBounces = 4; // of all that is compared: without roulette, paths would run on to 64
 
-// One value of one setting; an empty option is the default.
-struct Choice {
-    std::string option;
-    Change change;
+// One value of one setting, which is not the default.
+struct Change {
+    const SettingRow* row;
+    uint32_t value;
 };
 
-Change roulette(Roulette kind) {
-    return [kind](EstimatorSettings& s) { s.roulette = kind; };
+// By setting: its values that must not change the mean. The sampler is left out: Z-tests want independent
+// samples.
+std::vector<std::vector<Change>> changes() {
+    std::vector<std::vector<Change>> all;
+    for (const SettingRow& row : settingRows()) {
+        const auto* values = std::get_if<NamedValues>(&row.values);
+        if (values == nullptr || row.mayChangeMean || row.name == "sampler")
+            continue;
+        std::vector<Change>& ofRow = all.emplace_back();
+        for (const SettingName<uint32_t>& name : values->names.subspan(1))
+            ofRow.push_back({&row, name.value});
+    }
+    return all;
 }
 
-Choice survivalOn() {
-    return {"--mis-survival on", [](EstimatorSettings& s) { s.misSurvival = true; }};
-}
-
-// The settings with their values beside the default, in the order of DESIGN section 5.
-std::vector<std::vector<Choice>> settings() {
-    return {
-        {{"--hemisphere uniform", [](EstimatorSettings& s) { s.hemisphere = Hemisphere::uniform; }}},
-        {{"--nee off", [](EstimatorSettings& s) { s.nextEventEstimation = false; }}},
-        {{"--light-selection uniform",
-          [](EstimatorSettings& s) { s.lightSelection = LightSelection::uniform; }},
-         {"--light-selection tree", [](EstimatorSettings& s) { s.lightSelection = LightSelection::tree; }}},
-        {{"--mis balance", [](EstimatorSettings& s) { s.mis = Mis::balance; }},
-         {"--mis off", [](EstimatorSettings& s) { s.mis = Mis::off; }}},
-        {{"--roulette throughput", roulette(Roulette::throughput)},
-         {"--roulette off", roulette(Roulette::off)},
-         {"--roulette constant", roulette(Roulette::constant)},
-         {"--roulette mean-albedo", roulette(Roulette::meanAlbedo)},
-         {"--roulette max-albedo", roulette(Roulette::maxAlbedo)}},
-    };
-}
-
-void apply(Variant& variant, const Choice& choice) {
-    variant.name += (variant.name.empty() ? "" : " ") + choice.option;
-    choice.change(variant.settings);
+void apply(Variant& variant, const Change& change) {
+    std::get<NamedValues>(change.row->values).set(variant.settings, change.value);
+    variant.name += fmt::format("{}--{} {}", variant.name.empty() ? "" : " ", change.row->name,
+                                textOf(*change.row, variant.settings));
 }
 
 Variant withOtherSeed() {
@@ -92,27 +83,31 @@ Variant defaultVariant() {
 
 std::vector<Variant> singleVariants() {
     std::vector<Variant> variants;
-    for (const std::vector<Choice>& setting : settings())
-        for (const Choice& choice : setting)
-            apply(variants.emplace_back(withOtherSeed()), choice);
+    for (const std::vector<Change>& setting : changes())
+        for (const Change& change : setting) {
+            Variant variant = withOtherSeed();
+            apply(variant, change);
+            // Where it contradicts the defaults: with what comes before it in the table.
+            for (auto earlier = variants.rbegin(); !isPermitted(variant) && earlier != variants.rend();
+                 ++earlier) {
+                variant = *earlier;
+                apply(variant, change);
+            }
+            variants.push_back(std::move(variant));
+        }
     for (Variant& variant : variants)
         if (!variant.settings.nextEventEstimation)
             variant.effort = 2;
-    // Needs a roulette by albedo.
-    variants.push_back(variants.back());
-    apply(variants.back(), survivalOn());
     return variants;
 }
 
 std::vector<Variant> allVariants() {
     std::vector<Variant> variants{withOtherSeed()};
-    std::vector<std::vector<Choice>> all = settings();
-    all.push_back({survivalOn()});
-    for (const std::vector<Choice>& setting : all) {
+    for (const std::vector<Change>& setting : changes()) {
         const std::vector<Variant> before = variants;
-        for (const Choice& choice : setting)
+        for (const Change& change : setting)
             for (Variant variant : before) {
-                apply(variant, choice);
+                apply(variant, change);
                 variants.push_back(std::move(variant));
             }
     }
@@ -138,7 +133,7 @@ void expectOneMean(gpu::Device& device, const Scene& scene, const std::vector<Va
         EXPECT_GE(comparison.share, leastShare) << variant.name << ": too noisy to say anything";
         EXPECT_TRUE(comparison.same())
             << variant.name << ": " << comparison.text() << "; difference times 10: "
-            << writeDifference(image.radiance, expected.radiance, 10.0f, "estimator");
+            << writeDifference(image.radiance(), expected.radiance(), 10.0f, "estimator");
     }
 }
 

@@ -21,12 +21,12 @@ struct Variant {
 // All variants have the sampler `independent`, as Z-tests suppose.
 [[nodiscard]] Variant defaultVariant();
 
-// Each setting of the estimator at each value that must not change the mean, one at a time; seed 1, so that
-// images are independent of one at seed 0. Without next-event estimation, the noisiest by far, effort 2.
+// Each setting with named values at each value that must not change the mean (by the table of settings), one
+// at a time, or with another that it needs; seed 1, so that images are independent of one at seed 0. Without
+// next-event estimation, the noisiest by far, effort 2.
 [[nodiscard]] std::vector<Variant> singleVariants();
 
-// Hemisphere, NEE, light selection, MIS, roulette, survival in MIS: every combination that checkSettings
-// permits; seed 1.
+// Every combination of those values that checkSettings() permits; seed 1.
 [[nodiscard]] std::vector<Variant> allVariants();
 
 // The variants whose error thousands of samples can judge on a built-in scene: not light samples alone on

@@ -33,19 +33,20 @@ std::vector<Difference> tileDifferences(const Rendering& image, const Rendering&
                                         glm::length_t channel) {
     const Rendering ti = downsample(image, side);
     const Rendering tr = downsample(reference, side);
-    const double ofReference = sumOf(tr.variance, channel);
-    const double noisier = ofReference > 0.0 ? std::max(1.0, sumOf(ti.variance, channel) / ofReference) : 1.0;
+    const double ofReference = sumOf(tr.variance(), channel);
+    const double noisier =
+        ofReference > 0.0 ? std::max(1.0, sumOf(ti.variance(), channel) / ofReference) : 1.0;
     std::vector<Difference> differences;
-    for (size_t i = 0; i < tr.radiance.pixels.size(); ++i) {
-        const double mean = tr.radiance.pixels[i][channel];
-        const double variance = tr.variance.pixels[i][channel];
-        const double own = ti.variance.pixels[i][channel];
+    for (size_t i = 0; i < tr.radiance().pixels.size(); ++i) {
+        const double mean = tr.radiance().pixels[i][channel];
+        const double variance = tr.variance().pixels[i][channel];
+        const double own = ti.variance().pixels[i][channel];
         if (!(std::sqrt(std::max(noisier * variance, own)) < kPrecision * mean))
             continue;
         // What has no noise, as emission seen directly, is rounded all the same: half a unit in the last
         // place each.
         const double deviation = std::sqrt(variance + own) / mean + 0x1p-23;
-        differences.push_back({ti.radiance.pixels[i][channel] / mean - 1.0, deviation,
+        differences.push_back({ti.radiance().pixels[i][channel] / mean - 1.0, deviation,
                                fmt::format("tile {} of {} pixels a side, channel {}", i, side, channel)});
     }
     return differences;
@@ -102,8 +103,8 @@ MeanComparison compareMeans(const Rendering& image, const Rendering& reference) 
             judge(all);
             ofAll = std::min(ofAll, all.deviation);
             ofTile = std::min(ofTile, medianDeviation(tiles));
-            const double possible = std::ceil(image.radiance.width / double(side)) *
-                                    std::ceil(image.radiance.height / double(side));
+            const double possible = std::ceil(image.radiance().width / double(side)) *
+                                    std::ceil(image.radiance().height / double(side));
             comparison.share = std::max(comparison.share, static_cast<double>(tiles.size()) / possible);
         }
     comparison.limit = twoSidedQuantile(kFalseAlarm / std::max(1u, comparison.tests));

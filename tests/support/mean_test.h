@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-#include "image/image.h"
+#include "image/rendering.h"
 
 namespace lavalight::test {
 

@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "gpu/shader_build.h"
 
@@ -14,7 +15,8 @@ struct Patch {
     std::string to;
 };
 
-// Throws std::runtime_error where the patch does not apply.
+// Throws std::runtime_error where a patch does not apply.
 [[nodiscard]] gpu::KernelCode patchedKernel(std::string_view kernel, const Patch& patch);
+[[nodiscard]] gpu::KernelCode patchedKernel(std::string_view kernel, const std::vector<Patch>& patches);
 
 } // namespace lavalight::test

@@ -15,13 +15,14 @@ namespace lavalight::test {
 namespace {
 
 std::vector<uint32_t> wordsOf(const Film& film) {
+    const size_t each = film.layout().words();
     std::vector<uint32_t> words;
     for (const FilmBand& band : film.bands()) {
         const auto planes = band.sums.downloadAll<uint32_t>();
-        const size_t pixels = planes.size() / kFilmWords;
+        const size_t pixels = planes.size() / each;
         for (size_t pixel = 0; pixel < pixels; ++pixel)
-            for (size_t plane = 0; plane < kFilmWords; ++plane)
-                words.push_back(planes[plane * pixels + pixel]);
+            for (size_t word = 0; word < each; ++word)
+                words.push_back(planes[word * pixels + pixel]);
     }
     return words;
 }
@@ -72,24 +73,22 @@ RenderResult renderScene(gpu::Device& device, const Scene& scene, const RenderSe
 
 std::vector<uint32_t> sumOfFilms(const std::vector<uint32_t>& a, const std::vector<uint32_t>& b) {
     std::vector<uint32_t> sum = a;
-    for (size_t pixel = 0; pixel < sum.size(); pixel += kFilmWords) {
-        for (size_t channel = 0; channel < 3; ++channel) {
-            const size_t at = pixel + channel * kChannelWords;
-            addWords(&sum[at], &b[at], kSumWords);
-            addWords(&sum[at + kSumWords], &b[at + kSumWords], kSquareWords);
-        }
-        sum[pixel + kCountPlane] += b[pixel + kCountPlane];
+    const FilmLayout& layout = colorLayout();
+    for (size_t pixel = 0; pixel < sum.size(); pixel += layout.words()) {
+        for (const FilmNumber& number : layout.numbers())
+            addWords(&sum[pixel + number.firstWord], &b[pixel + number.firstWord], number.words);
+        sum[pixel + layout.countWord()] += b[pixel + layout.countWord()];
     }
     return sum;
 }
 
 ImageMean meanOf(const Rendering& rendering) {
     ImageMean result;
-    for (size_t i = 0; i < rendering.radiance.pixels.size(); ++i) {
-        result.mean += glm::dvec3(rendering.radiance.pixels[i]);
-        result.standardError += glm::dvec3(rendering.variance.pixels[i]);
+    for (size_t i = 0; i < rendering.radiance().pixels.size(); ++i) {
+        result.mean += glm::dvec3(rendering.radiance().pixels[i]);
+        result.standardError += glm::dvec3(rendering.variance().pixels[i]);
     }
-    const auto n = static_cast<double>(rendering.radiance.pixels.size());
+    const auto n = static_cast<double>(rendering.radiance().pixels.size());
     result.mean /= n;
     result.standardError = glm::sqrt(result.standardError) / n;
     return result;
@@ -107,20 +106,20 @@ void expectMean(const RenderResult& result, const glm::dvec3& expected, double p
 
 void expectEveryPixel(const RenderResult& result, const glm::dvec3& expected) {
     EXPECT_EQ(result.tallies.droppedSamples, 0u);
-    for (size_t i = 0; i < result.rendering.radiance.pixels.size(); ++i)
+    for (size_t i = 0; i < result.rendering.radiance().pixels.size(); ++i)
         for (glm::length_t c = 0; c < 3; ++c)
-            ASSERT_NEAR(result.rendering.radiance.pixels[i][c], expected[c], kRounding * expected[c])
+            ASSERT_NEAR(result.rendering.radiance().pixels[i][c], expected[c], kRounding * expected[c])
                 << "pixel " << i << ", channel " << c;
 }
 
 void expectSameMean(const Rendering& a, const Rendering& b, uint32_t tileSize) {
-    const uint32_t whole = std::max(a.radiance.width, a.radiance.height);
+    const uint32_t whole = std::max(a.radiance().width, a.radiance().height);
     for (const uint32_t size : {tileSize, whole}) {
-        const ZTest test = tileZTest(a.radiance, a.variance, b.radiance, b.variance, size);
+        const ZTest test = tileZTest(a.radiance(), a.variance(), b.radiance(), b.variance(), size);
         EXPECT_LT(test.maxAbsZ, kSigmas)
             << "tiles of " << size << ", worst at " << test.worstTile.x << ", " << test.worstTile.y
             << ", channel " << test.worstChannel << "; mean "
-            << 100.0 * relativeMeanDifference(a.radiance, b.radiance).overall << " % apart";
+            << 100.0 * relativeMeanDifference(a.radiance(), b.radiance()).overall << " % apart";
     }
 }
 

@@ -9,7 +9,7 @@
 
 #include "compare/statistics.h"
 #include "gpu/device.h"
-#include "image/image.h"
+#include "image/rendering.h"
 #include "render/estimator_kernels.h"
 #include "render/film.h"
 #include "render/settings.h"
@@ -21,7 +21,7 @@ struct RenderResult {
     Rendering rendering;
     FilmTallies tallies;
     std::vector<uint32_t>
-        filmWords; // the exact film: kFilmWords words a pixel, pixels row by row from the top
+        filmWords; // the exact film: the layout's words a pixel, pixels row by row from the top
 };
 
 [[nodiscard]] RenderSettings imageSettings(uint32_t width, uint32_t height, uint32_t samples);

@@ -15,8 +15,8 @@ inline void expectSameImage(const std::filesystem::path& a, const std::filesyste
     SCOPED_TRACE(a.filename().string() + " and " + b.filename().string());
     const ExrFile imageA = readExr(a);
     const ExrFile imageB = readExr(b);
-    EXPECT_TRUE(imageA.radiance.pixels == imageB.radiance.pixels);
-    EXPECT_TRUE(imageA.variance.value().pixels == imageB.variance.value().pixels);
+    EXPECT_TRUE(imageA.radiance().pixels == imageB.radiance().pixels);
+    EXPECT_TRUE(imageA.variance().pixels == imageB.variance().pixels);
     EXPECT_TRUE(imageA.sampleCounts == imageB.sampleCounts);
     FilmFile filmA = readFilmFile(a);
     FilmFile filmB = readFilmFile(b);

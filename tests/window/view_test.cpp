@@ -189,7 +189,7 @@ TEST_F(View, SavesTheImageAsRenderWritesIt) {
     ASSERT_EQ(result.exitCode, 0) << result.err;
     const ExrFile saved = readExr(folder_ / "cornell-box-1.exr");
     const ExrFile wanted = readExr(folder_ / "wanted.exr");
-    EXPECT_EQ(saved.radiance.pixels, wanted.radiance.pixels);
+    EXPECT_EQ(saved.radiance().pixels, wanted.radiance().pixels);
     EXPECT_EQ(saved.sampleCounts, wanted.sampleCounts);
     EXPECT_EQ(readPng(folder_ / "cornell-box-1.png"), rendered({"cornell-box"}));
     quit();

@@ -1,4 +1,5 @@
 // Exact sums: floats added to wide fixed-point integers built from 32-bit words, lowest word first.
+#include "shared/film.h"
 
 struct Shifted {
     uint low;  // the 24-bit mantissa, shifted, spans at most two words
@@ -54,7 +55,7 @@ bool addExactly(inout uvec4 sum, float x, int lowestExponent) {
     return false;
 }
 
-// The same for three words.
+// sum += x for a number of three words, as above.
 bool addExactly(inout uvec3 sum, float x, int lowestExponent) {
     const Shifted s = toFixed(x, lowestExponent, 3u);
     uint carry = 0u;
@@ -67,8 +68,35 @@ bool addExactly(inout uvec3 sum, float x, int lowestExponent) {
     return false;
 }
 
+// sum += x for a number of four words in two's complement; false: |x| was limited to kMostSigned.
+// -x adds exactly the opposite of x.
+bool addSigned(inout uvec4 sum, float x, int lowestExponent) {
+    const Shifted s = toFixed(min(abs(x), kMostSigned), lowestExponent, 4u);
+    const uint flip = x < 0.0 ? 0xffffffffu : 0u; // a - b = a + ~b + 1
+    uint carry = flip & 1u;
+    sum.x = addWithCarry(sum.x, wordOf(s, 0u) ^ flip, carry);
+    sum.y = addWithCarry(sum.y, wordOf(s, 1u) ^ flip, carry);
+    sum.z = addWithCarry(sum.z, wordOf(s, 2u) ^ flip, carry);
+    sum.w = addWithCarry(sum.w, wordOf(s, 3u) ^ flip, carry);
+    return abs(x) <= kMostSigned;
+}
+
 // Value of a number of three words, the lowest bit worth 2^lowestExponent: off by 2 units in the last place at most.
 float fromFixed(uvec3 words, int lowestExponent) {
     return ldexp(float(words.z), lowestExponent + 64) +
            (ldexp(float(words.y), lowestExponent + 32) + ldexp(float(words.x), lowestExponent));
+}
+
+// Value of a number of four words in two's complement, as close.
+float fromSigned(uvec4 words, int lowestExponent) {
+    const bool isNegative = (words.w & 0x80000000u) != 0u;
+    if (isNegative) {
+        uint carry = 1u;
+        words.x = addWithCarry(~words.x, 0u, carry);
+        words.y = addWithCarry(~words.y, 0u, carry);
+        words.z = addWithCarry(~words.z, 0u, carry);
+        words.w = ~words.w + carry;
+    }
+    const float magnitude = ldexp(float(words.w), lowestExponent + 96) + fromFixed(words.xyz, lowestExponent);
+    return isNegative ? -magnitude : magnitude;
 }

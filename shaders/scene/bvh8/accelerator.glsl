@@ -13,7 +13,7 @@
 #include "shared/bindings.h"
 #include "shared/bvh.h"
 
-layout(set = 0, binding = BINDING_BVH_NODES) uniform usamplerBuffer bvhNodes; // kNodeTexels a node
+layout(set = 0, binding = BINDING_BVH_NODES) uniform utextureBuffer bvhNodes; // kNodeTexels a node
 
 BvhNode loadNode(uint index) {
     int texel = int(index * kNodeTexels);
@@ -71,8 +71,8 @@ uint nextLeaf(SlabRay slab, float tMax, inout uint siblings, inout Stack stack) 
     return isNode ? kEmptyLeaf : nearest;
 }
 
-// Traverses depth first, near children first. A step tests a node and then, whatever came of it, a leaf: rays that run in lockstep
-// would otherwise pay for both and take one. Returns at the first hit if `any`.
+// Traverses depth first, near children first. A step tests a node and then, whatever came of it, a leaf: rays that run in
+// lockstep would otherwise pay for both and take one. Returns at the first hit if `any`.
 bool traverse(vec3 origin, vec3 direction, RayFilter ignored, bool any, inout NearestHit nearest) {
     direction = withoutZeros(direction);
     SlabRay slab = slabRay(origin, direction);

@@ -113,8 +113,8 @@ int CompareCommand::run() {
     for (const Verdict& v : comparison.verdicts)
         if (!v.passed)
             spdlog::error("{} differs from {}: {} {:.6g}, the limit is {:g}; furthest: {}", image_,
-                          reference_, v.criterion == "Z-test" ? "p of the Z-test is" : v.criterion, v.value,
-                          v.limit, v.where);
+                          reference_, v.isZTest() ? fmt::format("p of the {} is", v.criterion) : v.criterion,
+                          v.value, v.limit, v.where);
     return comparison.isEqual() ? 0 : 1;
 }
 

@@ -8,7 +8,7 @@ namespace lavalight {
 
 int PresetsCommand::run() {
     for (const Preset& preset : presets())
-        fmt::print("{:<10} {}\n{:<10} {}\n", preset.name, preset.meaning, "", preset.sets);
+        fmt::print("{:<10} {}\n{:<10} {}\n", preset.name, preset.meaning, "", optionsOf(preset));
     return 0;
 }
 

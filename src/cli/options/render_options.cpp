@@ -1,10 +1,7 @@
 #include "cli/options/render_options.h"
 
-#include <cmath>
-#include <limits>
-#include <map>
 #include <optional>
-#include <vector>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -14,6 +11,7 @@
 #include "film/sample_ranges.h"
 #include "render/presets.h"
 #include "render/setting_names.h"
+#include "render/setting_text.h"
 
 namespace lavalight {
 namespace {
@@ -29,21 +27,8 @@ void parseSize(const std::string& text, RenderSettings& settings) {
     settings.image.height = *height;
 }
 
-void addSwitch(CLI::App& parser, const std::string& option, bool& value, const std::string& help) {
-    const std::map<std::string, bool> values{{"on", true}, {"off", false}};
-    parser.add_option(option, value, help)
-        ->type_name("on|off")
-        ->transform(oneOf(values))
-        ->default_str(value ? "on" : "off");
-}
-
-float parseClamp(const std::string& text) {
-    if (text == "off")
-        return std::numeric_limits<float>::infinity();
-    const auto value = parseNumber<float>(text);
-    if (!value || !(*value > 0.0f))
-        throw UsageError(fmt::format("--clamp-indirect: \"{}\" is neither off nor a radiance above 0", text));
-    return *value;
+std::string optionOf(const SettingRow& row) {
+    return fmt::format("--{}", row.name);
 }
 
 } // namespace
@@ -52,14 +37,12 @@ RenderOptions::RenderOptions(CLI::App& parser) : parser_(&parser), camera_(parse
     declareImage(parser);
     declareStop(parser);
     declareEstimator(parser);
-    declareRoulette(parser);
     declareDevice(parser);
 }
 
 void RenderOptions::declareImage(CLI::App& parser) {
     parser.add_option("--size", size_, "Image size in pixels; default: 512 high, as wide as the camera asks")
         ->type_name("WxH");
-    parser.add_option("--seed", estimator_.seed, "Another seed, other noise")->type_name("N");
 }
 
 void RenderOptions::declareStop(CLI::App& parser) {
@@ -80,52 +63,25 @@ void RenderOptions::declareStop(CLI::App& parser) {
 }
 
 void RenderOptions::declareEstimator(CLI::App& parser) {
-    EstimatorSettings& e = estimator_;
     parser
         .add_option("--preset", preset_,
                     "Settings by name (see lavalight presets); other options change them")
         ->type_name("NAME");
-    addNamed(parser, "--sampler", e.sampler, "Sample numbers: Owen-scrambled Sobol, or independent");
-    addNamed(parser, "--hemisphere", e.hemisphere,
-             "Directions of diffuse surfaces: by the cosine, or all alike");
-    addSwitch(parser, "--nee", e.nextEventEstimation,
-              "Next-event estimation; off: light is found only by hitting it");
-    addNamed(parser, "--light-selection", e.lightSelection,
-             "Which light NEE picks: by power, all alike, or by what each brings to the point (auto: where "
-             "there are several)");
-    addNamed(parser, "--mis", e.mis, "Weights of light and BSDF samples");
-    addSwitch(parser, "--mis-survival", e.misSurvival, "MIS weights count the probability of survival");
-    addNamed(parser, "--fresnel", e.fresnel, "Reflectance of glass: exact, or Schlick's approximation");
-    addSwitch(parser, "--multiple-scattering", e.multipleScattering,
-              "Rough metal returns what its facets send on to each other, which glTF's model loses");
-    addNamed(parser, "--texture-filter", e.textureFilter,
-             "Textures between texels: bilinear, or one of the four texels, drawn by its share");
-    parser
-        .add_option("--max-bounces", e.maxBounces,
-                    "Scattering vertices of a path; 0: emission only, 1: direct light")
-        ->type_name("N");
-    parser
-        .add_option("--clamp-indirect", clampIndirect_,
-                    "Largest indirect contribution; biased, enters the ledger")
-        ->type_name("off|X");
-}
-
-void RenderOptions::declareRoulette(CLI::App& parser) {
-    EstimatorSettings& e = estimator_;
-    addNamed(parser, "--roulette", e.roulette, "What decides whether a path goes on");
-    parser
-        .add_option("--roulette-start", e.rouletteStart, "First vertex where a path may die (first hit: 1)")
-        ->type_name("N");
-    parser
-        .add_option("--roulette-probability", e.rouletteProbability,
-                    "Survival probability of --roulette constant")
-        ->type_name("P");
+    const std::span<const SettingRow> rows = settingRows();
+    estimator_.resize(rows.size());
+    for (size_t i = 0; i < rows.size(); ++i)
+        parser.add_option(optionOf(rows[i]), estimator_[i], std::string(rows[i].help))
+            ->type_name(valueNames(rows[i]))
+            ->default_str(textOf(rows[i], EstimatorSettings{}));
 }
 
 void RenderOptions::declareDevice(CLI::App& parser) {
     device_.emplace(parser);
-    addNamed(parser, "--schedule,--kernels", settings_.work.schedule,
+    addNamed(parser, "--schedule", settings_.work.schedule,
              "One kernel for whole paths, or one for each step; auto: by device");
+    // The name that it had before, left out of the help.
+    addNamed(parser, "--kernels", settings_.work.schedule, "");
+    parser.get_option("--kernels")->group("")->excludes(parser.get_option("--schedule"));
     parser
         .add_option("--wave-size", settings_.work.waveSize,
                     "Paths in flight; 0: by the kernels; changes no bit of the image")
@@ -139,26 +95,10 @@ void RenderOptions::declareDevice(CLI::App& parser) {
 RenderSettings RenderOptions::settings() const {
     RenderSettings settings = settings_;
     settings.estimator = preset_.empty() ? EstimatorSettings{} : findPreset(preset_).settings;
-    // An option that was given wins over the preset.
-    const auto take = [&](const char* option, auto member) {
-        if (parser_->count(option) > 0)
-            settings.estimator.*member = estimator_.*member;
-    };
-    take("--sampler", &EstimatorSettings::sampler);
-    take("--hemisphere", &EstimatorSettings::hemisphere);
-    take("--nee", &EstimatorSettings::nextEventEstimation);
-    take("--light-selection", &EstimatorSettings::lightSelection);
-    take("--mis", &EstimatorSettings::mis);
-    take("--mis-survival", &EstimatorSettings::misSurvival);
-    take("--fresnel", &EstimatorSettings::fresnel);
-    take("--multiple-scattering", &EstimatorSettings::multipleScattering);
-    take("--texture-filter", &EstimatorSettings::textureFilter);
-    take("--max-bounces", &EstimatorSettings::maxBounces);
-    take("--roulette", &EstimatorSettings::roulette);
-    take("--roulette-start", &EstimatorSettings::rouletteStart);
-    take("--roulette-probability", &EstimatorSettings::rouletteProbability);
-    take("--seed", &EstimatorSettings::seed);
-    settings.estimator.clampIndirect = parseClamp(clampIndirect_);
+    const std::span<const SettingRow> rows = settingRows();
+    for (size_t i = 0; i < rows.size(); ++i)
+        if (parser_->count(optionOf(rows[i])) > 0) // which wins over the preset
+            setText(rows[i], settings.estimator, estimator_[i]);
     if (!samples_.empty())
         takeRange(settings);
     const bool stopsEarly = settings.stop.seconds > 0.0 || settings.stop.targetError > 0.0;

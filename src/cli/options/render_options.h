@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -34,7 +35,6 @@ class RenderOptions {
     void declareImage(CLI::App& parser);
     void declareStop(CLI::App& parser);
     void declareEstimator(CLI::App& parser);
-    void declareRoulette(CLI::App& parser);
     void declareDevice(CLI::App& parser);
     void takeRange(RenderSettings& settings) const;
 
@@ -44,8 +44,7 @@ class RenderOptions {
     CameraOptions camera_;
     EnvironmentOptions environment_;
     std::string preset_;
-    std::string clampIndirect_ = "off";
-    EstimatorSettings estimator_; // values of the options; those not given are taken from the preset
+    std::vector<std::string> estimator_; // values of settingRows(), where they are given
     RenderSettings settings_;
     std::optional<DeviceOptions> device_; // always, once declared
 };

@@ -300,8 +300,8 @@ TEST(Bvh, RefusesCoordinatesThatAreNotFiniteOrTooLarge) {
 }
 
 TEST(Bvh, RefusesWhatDoesNotFit) {
-    EXPECT_NO_THROW(requireBvhFits(kMaxTexels / kTriangleTexels, kMaxNodes));
-    EXPECT_THROW(requireBvhFits(kMaxTexels / kTriangleTexels + 1, 0), Error);
+    EXPECT_NO_THROW(requireBvhFits(kMostTexels / kTriangleTexels, kMaxNodes));
+    EXPECT_THROW(requireBvhFits(kMostTexels / kTriangleTexels + 1, 0), Error);
     EXPECT_THROW(requireBvhFits(0, kMaxNodes + 1), Error);
 }
 

@@ -37,11 +37,11 @@ TEST_P(FlipReference, EachPixelAndTheMeanAreThoseOfTheAuthorsProgram) {
     const auto value = nlohmann::json::parse(readFile(kFolder + "values.json")).at(name);
     const bool isHdr = value.at("range") == "HDR";
     const std::string path = kFolder + name;
-    const FlipMap map = isHdr ? flipOfRadiance(readExr(path + "-image.exr").radiance,
-                                               readExr(path + "-reference.exr").radiance)
+    const FlipMap map = isHdr ? flipOfRadiance(readExr(path + "-image.exr").radiance(),
+                                               readExr(path + "-reference.exr").radiance())
                               : flip(readPng(path + "-image.png"), readPng(path + "-reference.png"));
     EXPECT_NEAR(map.mean() / value.at("mean").get<double>(), 1.0, 1e-3); // 1e-5 was measured
-    const Image expected = readExr(path + "-flip.exr").radiance;
+    const Image expected = readExr(path + "-flip.exr").radiance();
     ASSERT_EQ(map.errors.size(), expected.pixels.size());
     for (size_t i = 0; i < map.errors.size(); ++i) // stored as half floats, 5e-4 apart at 1
         ASSERT_NEAR(map.errors[i], expected.pixels[i].r, 2e-3)
@@ -59,7 +59,7 @@ INSTANTIATE_TEST_SUITE_P(Pairs, FlipReference,
 TEST(FlipOfRadiance, ShowsTheExposuresOfTheAuthorsProgram) {
     const auto values = nlohmann::json::parse(readFile(kFolder + "values.json"));
     for (const std::string name : {"noise-radiance", "tint-radiance"}) {
-        const ExposureRange range = exposureRange(readExr(kFolder + name + "-reference.exr").radiance);
+        const ExposureRange range = exposureRange(readExr(kFolder + name + "-reference.exr").radiance());
         EXPECT_NEAR(range.start, values.at(name).at("startExposure").get<float>(), 1e-3f);
         EXPECT_NEAR(range.stop, values.at(name).at("stopExposure").get<float>(), 1e-3f);
         EXPECT_EQ(range.count, values.at(name).at("exposures").get<uint32_t>());

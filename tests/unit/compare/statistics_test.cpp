@@ -132,7 +132,7 @@ Rendering noisyRendering(float mean, unsigned seed) {
     std::exponential_distribution<double> sample(1.0 / mean);
     Rendering rendering{Image(kSide, kSide), Image(kSide, kSide),
                         std::vector<uint32_t>(kSide * kSide, kSamples)};
-    for (size_t i = 0; i < rendering.radiance.pixels.size(); ++i)
+    for (size_t i = 0; i < rendering.radiance().pixels.size(); ++i)
         for (int c = 0; c < 3; ++c) {
             double sum = 0.0;
             double sumOfSquares = 0.0;
@@ -142,14 +142,14 @@ Rendering noisyRendering(float mean, unsigned seed) {
                 sumOfSquares += value * value;
             }
             const double variance = (sumOfSquares - sum * sum / kSamples) / (kSamples - 1);
-            rendering.radiance.pixels[i][c] = static_cast<float>(sum / kSamples);
-            rendering.variance.pixels[i][c] = static_cast<float>(variance / kSamples);
+            rendering.radiance().pixels[i][c] = static_cast<float>(sum / kSamples);
+            rendering.variance().pixels[i][c] = static_cast<float>(variance / kSamples);
         }
     return rendering;
 }
 
 ZTest zTest(const Rendering& a, const Rendering& b, uint32_t tileSize) {
-    return tileZTest(a.radiance, a.variance, b.radiance, b.variance, tileSize);
+    return tileZTest(a.radiance(), a.variance(), b.radiance(), b.variance(), tileSize);
 }
 
 TEST(TileZTest, TwoRendersOfTheSameWallDifferAsANormalDeviateDoes) {
@@ -176,31 +176,41 @@ TEST(TileZTest, OnePerCentOfBiasIsCaughtThoughNoPixelShowsIt) {
 TEST(Downsample, AveragesBoxesAndTheirVariances) {
     Rendering rendering{Image(3, 2), Image(3, 2), {1, 2, 3, 4, 5, 6}};
     for (uint32_t i = 0; i < 6; ++i) {
-        rendering.radiance.pixels[i] = glm::vec3(static_cast<float>(i), 1.0f, 0.0f);
-        rendering.variance.pixels[i] = glm::vec3(4.0f, static_cast<float>(i), 0.0f);
+        rendering.radiance().pixels[i] = glm::vec3(static_cast<float>(i), 1.0f, 0.0f);
+        rendering.variance().pixels[i] = glm::vec3(4.0f, static_cast<float>(i), 0.0f);
     }
     const Rendering small = downsample(rendering, 2);
-    ASSERT_EQ(small.radiance.width, 2u);
-    ASSERT_EQ(small.radiance.height, 1u);
-    EXPECT_EQ(small.radiance.pixels[0], glm::vec3((0.0f + 1.0f + 3.0f + 4.0f) / 4.0f, 1.0f, 0.0f));
-    EXPECT_EQ(small.variance.pixels[0], glm::vec3(16.0f / 16.0f, 8.0f / 16.0f, 0.0f));
-    EXPECT_EQ(small.radiance.pixels[1],
+    ASSERT_EQ(small.radiance().width, 2u);
+    ASSERT_EQ(small.radiance().height, 1u);
+    EXPECT_EQ(small.radiance().pixels[0], glm::vec3((0.0f + 1.0f + 3.0f + 4.0f) / 4.0f, 1.0f, 0.0f));
+    EXPECT_EQ(small.variance().pixels[0], glm::vec3(16.0f / 16.0f, 8.0f / 16.0f, 0.0f));
+    EXPECT_EQ(small.radiance().pixels[1],
               glm::vec3((2.0f + 5.0f) / 2.0f, 1.0f, 0.0f)); // the cut box: two pixels
-    EXPECT_EQ(small.variance.pixels[1], glm::vec3(8.0f / 4.0f, 7.0f / 4.0f, 0.0f));
+    EXPECT_EQ(small.variance().pixels[1], glm::vec3(8.0f / 4.0f, 7.0f / 4.0f, 0.0f));
     EXPECT_EQ(small.sampleCounts, (std::vector<uint32_t>{1 + 2 + 4 + 5, 3 + 6}));
 }
 
 TEST(Downsample, ByOneChangesNothing) {
     const Rendering rendering = noisyRendering(0.5f, 3);
     const Rendering same = downsample(rendering, 1);
-    EXPECT_EQ(same.radiance.pixels, rendering.radiance.pixels);
-    EXPECT_EQ(same.variance.pixels, rendering.variance.pixels);
+    EXPECT_EQ(same.radiance().pixels, rendering.radiance().pixels);
+    EXPECT_EQ(same.variance().pixels, rendering.variance().pixels);
     EXPECT_EQ(same.sampleCounts, rendering.sampleCounts);
 }
 
 TEST(Downsample, SampleCountsSaturate) {
     Rendering rendering{Image(2, 1), Image(2, 1), {4'000'000'000u, 4'000'000'000u}};
     EXPECT_EQ(downsample(rendering, 2).sampleCounts[0], std::numeric_limits<uint32_t>::max());
+}
+
+TEST(Downsample, EveryLayerIsAveraged) {
+    Rendering rendering{Image(2, 1), Image(2, 1), {1, 1}};
+    Layer& layer = rendering.layers.emplace_back(Layer{"normal", {"normal.X"}, Image(2, 1), std::nullopt});
+    layer.mean.pixels = {{-3.0f, 0.0f, 0.0f}, {1.0f, 0.0f, 0.0f}};
+    const Rendering small = downsample(rendering, 2);
+    ASSERT_NE(small.find("normal"), nullptr);
+    EXPECT_EQ(small.find("normal")->mean.pixels.front(), glm::vec3(-1.0f, 0.0f, 0.0f));
+    EXPECT_FALSE(small.find("normal")->variance.has_value());
 }
 
 } // namespace

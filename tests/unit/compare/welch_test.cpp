@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
+#include "image/rendering.h"
 
 namespace lavalight {
 namespace {
@@ -15,7 +16,7 @@ namespace {
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 Estimate estimateOf(const Rendering& rendering) {
-    return {&rendering.radiance, &rendering.variance, rendering.sampleCounts};
+    return {&rendering.radiance(), &rendering.variance(), rendering.sampleCounts};
 }
 
 // A wall lit by a rare path: a sample is `value` with the given probability, else 0.01.
@@ -24,11 +25,11 @@ Rendering rareLight(uint32_t samples, double probability, float value, unsigned 
     std::mt19937 generator(seed);
     std::binomial_distribution<uint32_t> hits(samples, probability);
     Rendering r{Image(kSide, kSide), Image(kSide, kSide), std::vector<uint32_t>(kSide * kSide, samples)};
-    for (size_t i = 0; i < r.radiance.pixels.size(); ++i) {
+    for (size_t i = 0; i < r.radiance().pixels.size(); ++i) {
         const float share = static_cast<float>(hits(generator)) / static_cast<float>(samples);
-        r.radiance.pixels[i] = glm::vec3(0.01f + share * (value - 0.01f));
-        r.variance.pixels[i] = glm::vec3(share * (1.0f - share) * (value - 0.01f) * (value - 0.01f) /
-                                         static_cast<float>(samples - 1));
+        r.radiance().pixels[i] = glm::vec3(0.01f + share * (value - 0.01f));
+        r.variance().pixels[i] = glm::vec3(share * (1.0f - share) * (value - 0.01f) * (value - 0.01f) /
+                                           static_cast<float>(samples - 1));
     }
     return r;
 }
@@ -74,7 +75,7 @@ TEST(WelchTest, ALittleLessLightIsADifference) {
 TEST(WelchTest, OneDeadPixelIsADifferenceAndNamed) {
     const Rendering a = rareLight(256, 0.5, 1.0f, 1);
     Rendering b = rareLight(256, 0.5, 1.0f, 2);
-    b.radiance.pixels[64 * 5 + 7] = glm::vec3(0.0f);
+    b.radiance().pixels[64 * 5 + 7] = glm::vec3(0.0f);
     const WelchTest test = welchTest(estimateOf(b), estimateOf(a), 1);
     EXPECT_LT(test.p, 1e-9);
     EXPECT_EQ(test.worstTile, glm::uvec2(7, 5));
@@ -83,8 +84,8 @@ TEST(WelchTest, OneDeadPixelIsADifferenceAndNamed) {
 
 Rendering pixel(float radiance, float variance, uint32_t samples) {
     Rendering r{Image(1, 1), Image(1, 1), {samples}};
-    r.radiance.pixels[0] = glm::vec3(radiance);
-    r.variance.pixels[0] = glm::vec3(variance);
+    r.radiance().pixels[0] = glm::vec3(radiance);
+    r.variance().pixels[0] = glm::vec3(variance);
     return r;
 }
 
@@ -96,8 +97,8 @@ TEST(WelchTest, FewSamplesHaveTheTailsOfStudentsT) {
     const Rendering noisy = pixel(1.0f, 0.5f, 3);
     EXPECT_NEAR(welchTest(estimateOf(pixel(3.776f, 0.5f, 3)), estimateOf(noisy), 1).p, 3 * 0.05, 1e-3);
     const Rendering shifted = pixel(2.96f, 1.0f, 3);
-    const Estimate withoutCounts{&shifted.radiance, &shifted.variance, {}};
-    const Estimate exact{&reference.radiance, nullptr, {}};
+    const Estimate withoutCounts{&shifted.radiance(), &shifted.variance(), {}};
+    const Estimate exact{&reference.radiance(), nullptr, {}};
     EXPECT_NEAR(welchTest(withoutCounts, exact, 1).p, 3 * 0.05, 1e-3);
 }
 

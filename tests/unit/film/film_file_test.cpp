@@ -25,6 +25,7 @@ void expectEqual(const FilmFile& a, const FilmFile& b) {
     EXPECT_EQ(a.film.height, b.film.height);
     EXPECT_EQ(a.film.words, b.film.words);
     EXPECT_EQ(a.film.tallies, b.film.tallies);
+    EXPECT_EQ(a.film.layout, b.film.layout);
     EXPECT_EQ(a.ranges, b.ranges);
     EXPECT_EQ(a.progress, b.progress);
     EXPECT_EQ(sorted(a.metadata), sorted(b.metadata));
@@ -50,16 +51,61 @@ TEST_F(FilmFiles, ComeBackAsTheyWere) {
     expectEqual(readFilmFile(folder_ / "a.exr"), film_);
     film_.ranges = {{0, 4}, {8, 24}};
     film_.progress = {3, 16, 19};
-    film_.film.tallies = {~uint64_t{0}, 1, 1ull << 40, 7};
+    film_.film.tallies = {~uint64_t{0}, 1, 1ull << 40, 7, 6, 5, 4, 3};
     writeFilmFile(folder_ / "b.exr", film_);
     expectEqual(readFilmFile(folder_ / "b.exr"), film_);
+}
+
+TEST_F(FilmFiles, BringTheirLayersWithThem) {
+    FilmFile film = someFilm(4, {0, 8}, test::signedLayout());
+    film.film.words[film.film.pixels() * 24] = 0xffffff00u; // the highest word of tilt.X of a pixel
+    writeFilmFile(folder_ / "b.exr", film);
+    expectEqual(readFilmFile(folder_ / "b.exr"), film);
+    const ExrFile image = readExr(folder_ / "b.exr");
+    const Rendering expected = resolve(film.film);
+    ASSERT_EQ(image.layers.size(), expected.layers.size());
+    for (const Layer& layer : expected.layers) {
+        const Layer* same = image.find(layer.name);
+        ASSERT_NE(same, nullptr) << layer.name;
+        EXPECT_EQ(same->channels, layer.channels);
+        EXPECT_EQ(same->mean.pixels, layer.mean.pixels) << layer.name;
+        ASSERT_EQ(same->variance.has_value(), layer.variance.has_value()) << layer.name;
+        if (layer.variance) {
+            EXPECT_EQ(same->variance->pixels, layer.variance->pixels) << layer.name;
+        }
+    }
+    EXPECT_LT(image.find("tilt")->mean.pixels.front().x, 0.0f);
+}
+
+// A file without a layout, and with the tallies that there were then.
+TEST_F(FilmFiles, FromBeforeThereWereLayersAreRead) {
+    const FilmFile old =
+        readFilmFile(std::string(LAVALIGHT_SOURCE_DIR) + "/tests/references/film-without-layout.exr");
+    EXPECT_EQ(old.film.layout, colorLayout());
+    EXPECT_EQ(textOf(old.ranges), "0:2");
+    EXPECT_TRUE(old.isComplete());
+    EXPECT_EQ(old.film.samples(), 2u * 4 * 3);
+    EXPECT_EQ(old.film.tallies[kTallyNegative], 0u);
+    EXPECT_GT(resolve(old.film).radiance().at(1, 1).r, 0.0f);
+}
+
+TEST_F(FilmFiles, WithALayoutOfALaterVersionAreRefusedByIt) {
+    std::string bytes = readFile(folder_ / "a.exr");
+    const std::string layout = textOf(colorLayout());
+    const std::string other = "color: R,G,B unsigned ranking";
+    ASSERT_EQ(other.size(), layout.size());
+    bytes.replace(bytes.find(layout), layout.size(), other);
+    writeBytes("b.exr", bytes);
+    EXPECT_NE(refusalOf("b.exr").find("b.exr: its film has the layers \"" + other + "\", which this version"),
+              std::string::npos)
+        << refusalOf("b.exr");
 }
 
 TEST_F(FilmFiles, AreImagesForEveryoneElse) {
     const ExrFile image = readExr(folder_ / "a.exr");
     const Rendering expected = resolve(film_.film);
-    EXPECT_EQ(image.radiance.pixels, expected.radiance.pixels);
-    EXPECT_EQ(image.variance.value().pixels, expected.variance.pixels);
+    EXPECT_EQ(image.radiance().pixels, expected.radiance().pixels);
+    EXPECT_EQ(image.variance().pixels, expected.variance().pixels);
     EXPECT_EQ(image.sampleCounts, expected.sampleCounts);
 }
 

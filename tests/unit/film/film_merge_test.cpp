@@ -36,7 +36,8 @@ TEST(FilmMerge, SamplesTalliesSecondsAndLedgerAreThoseOfBoth) {
     EXPECT_EQ(valueOf(file.metadata, "render-seconds"), "3.000");
     EXPECT_EQ(valueOf(file.metadata, "bias-ledger"),
               "clamp-indirect: 5; cut-paths: 6 paths ended by --max-bounces, mean throughput 0.5; "
-              "dropped-samples: 2 samples were not finite");
+              "dropped-samples: 2 samples were not finite; "
+              "negative-samples: 4 samples were negative, and counted as 0");
 }
 
 TEST(FilmMerge, OrderAndGroupingChangeNothing) {
@@ -96,6 +97,19 @@ TEST(FilmMerge, FilmsThatLackSamplesAreTold) {
     EXPECT_NE(refusalOf(someFilm(1, {0, 8}), part).find("cannot merge b.exr: its render was interrupted"),
               std::string::npos);
     EXPECT_NE(refusalOf(part, someFilm(1, {0, 8})).find("cannot merge a.exr"), std::string::npos);
+}
+
+TEST(FilmMerge, FilmsOfOtherLayersAreRefusedByTheirNames) {
+    EXPECT_EQ(refusalOf(someFilm(1, {0, 8}), someFilm(2, {8, 16}, test::signedLayout())),
+              "cannot merge b.exr with a.exr: they differ in layers (color: R,G,B unsigned squares in a.exr; "
+              "color: R,G,B unsigned squares; tilt: tilt.X,tilt.Y signed; height: height.Z signed squares in "
+              "b.exr); try to render the parts with the same layers");
+    NamedFilm sum = named("a.exr", someFilm(1, {0, 8}, test::signedLayout()));
+    join(sum, named("b.exr", someFilm(2, {8, 16}, test::signedLayout())));
+    EXPECT_EQ(sum.file.film.layout, test::signedLayout());
+    RawFilm expected = someFilm(1, {}, test::signedLayout()).film;
+    add(expected, someFilm(2, {}, test::signedLayout()).film);
+    EXPECT_EQ(sum.file.film.words, expected.words);
 }
 
 TEST(FilmMerge, FilmsOfOtherSizesAreRefused) {

@@ -24,6 +24,15 @@ TEST(FixedPoint, AllOnesIsTheLargestValue) {
               std::ldexp(1.0, 96 + kSumLowestExponent)); // rounded to a double
 }
 
+TEST(FixedPoint, TwosComplementIsExactNearZeroOnBothSides) {
+    EXPECT_EQ(fromSigned(std::array<uint32_t, 4>{1, 0, 0, 0}, -48), std::ldexp(1.0, -48));
+    EXPECT_EQ(fromSigned(std::array<uint32_t, 4>{0xffffffffu, 0xffffffffu, 0xffffffffu, 0xffffffffu}, -48),
+              -std::ldexp(1.0, -48));
+    EXPECT_EQ(fromSigned(std::array<uint32_t, 4>{0, 0xffff0000u, 0xffffffffu, 0xffffffffu}, -48), -1.0);
+    EXPECT_EQ(fromSigned(std::array<uint32_t, 4>{0, 0, 0, 0x80000000u}, -48), -std::ldexp(1.0, 79));
+    EXPECT_EQ(fromSigned(std::array<uint32_t, 4>{0, 0, 0, 0x40000000u}, -48), std::ldexp(1.0, 78));
+}
+
 PixelEstimate estimateOf(const std::vector<double>& samples) {
     double sum = 0.0;
     double squares = 0.0;

@@ -87,12 +87,12 @@ TEST_F(EnvironmentAssets, BrokenMapsAreRefusedWithTheirName) {
 TEST(EnvironmentFile, ValuesThatAreNoRadianceBecomeZeroAndAreCounted) {
     const TemporaryFolder folder;
     Rendering rendering{Image(3, 2), Image(3, 2), std::vector<uint32_t>(6, 1)};
-    rendering.radiance.pixels = {{1, 2, 3},
-                                 {-1, 2, 3},
-                                 {1, std::numeric_limits<float>::quiet_NaN(), 3},
-                                 {1, 2, std::numeric_limits<float>::infinity()},
-                                 {0, 0, 0},
-                                 {-1, -1, -1}};
+    rendering.radiance().pixels = {{1, 2, 3},
+                                   {-1, 2, 3},
+                                   {1, std::numeric_limits<float>::quiet_NaN(), 3},
+                                   {1, 2, std::numeric_limits<float>::infinity()},
+                                   {0, 0, 0},
+                                   {-1, -1, -1}};
     writeExr(folder / "map.exr", rendering, {});
     const EnvironmentFile file = readEnvironmentFile(folder / "map.exr");
     EXPECT_EQ(file.badTexels, 4u);

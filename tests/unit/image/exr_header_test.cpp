@@ -48,7 +48,7 @@ class ExrHeader : public testing::Test {
 
 TEST_F(ExrHeader, GoodFilesPass) {
     EXPECT_NO_THROW(requireSaneAttributes(folder_ / "good.exr"));
-    EXPECT_EQ(readExr(folder_ / "good.exr").radiance.width, 2u);
+    EXPECT_EQ(readExr(folder_ / "good.exr").radiance().width, 2u);
 }
 
 // Found by fuzzing: the C reader took the list's last byte for the end of the header, the C++ reader went on

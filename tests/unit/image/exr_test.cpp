@@ -32,16 +32,16 @@ using test::TemporaryFolder;
 Rendering sampleRendering(uint32_t width, uint32_t height) {
     std::mt19937 generator(7);
     Rendering rendering{Image(width, height), Image(width, height), {}};
-    for (size_t i = 0; i < rendering.radiance.pixels.size(); ++i) {
+    for (size_t i = 0; i < rendering.radiance().pixels.size(); ++i) {
         for (int c = 0; c < 3; ++c) {
-            rendering.radiance.pixels[i][c] =
+            rendering.radiance().pixels[i][c] =
                 std::bit_cast<float>(static_cast<uint32_t>(generator() % 0x7f800000u));
-            rendering.variance.pixels[i][c] = std::ldexp(1.0f, static_cast<int>(generator() % 60) - 30);
+            rendering.variance().pixels[i][c] = std::ldexp(1.0f, static_cast<int>(generator() % 60) - 30);
         }
         rendering.sampleCounts.push_back(static_cast<uint32_t>(generator()));
     }
-    rendering.radiance.pixels.front() = {0.0f, std::numeric_limits<float>::denorm_min(),
-                                         std::numeric_limits<float>::max()};
+    rendering.radiance().pixels.front() = {0.0f, std::numeric_limits<float>::denorm_min(),
+                                           std::numeric_limits<float>::max()};
     return rendering;
 }
 
@@ -100,14 +100,14 @@ TEST(Exr, ARenderingComesBackBitForBit) {
     const Rendering rendering = sampleRendering(67, 300); // more rows than one band of the reader
     writeExr(folder / "image.exr", rendering, {});
     const ExrFile file = readExr(folder / "image.exr");
-    EXPECT_EQ(file.radiance.width, 67u);
-    EXPECT_EQ(file.radiance.height, 300u);
-    EXPECT_EQ(file.radiance.pixels, rendering.radiance.pixels);
-    ASSERT_TRUE(file.variance.has_value());
-    EXPECT_EQ(file.variance->width, 67u);
-    EXPECT_EQ(file.variance->pixels, rendering.variance.pixels);
-    ASSERT_TRUE(file.sampleCounts.has_value());
-    EXPECT_EQ(*file.sampleCounts, rendering.sampleCounts);
+    EXPECT_EQ(file.radiance().width, 67u);
+    EXPECT_EQ(file.radiance().height, 300u);
+    EXPECT_EQ(file.radiance().pixels, rendering.radiance().pixels);
+    ASSERT_TRUE(file.hasVariance());
+    EXPECT_EQ(file.variance().width, 67u);
+    EXPECT_EQ(file.variance().pixels, rendering.variance().pixels);
+    ASSERT_FALSE(file.sampleCounts.empty());
+    EXPECT_EQ(file.sampleCounts, rendering.sampleCounts);
 }
 
 TEST(Exr, MetadataComeBackInAlphabeticalOrder) {
@@ -181,19 +181,67 @@ TEST(Exr, ForeignFilesAreReadWhateverTheirTypeCompressionAndOrigin) {
                 writeForeign(folder / "image.exr",
                              {{"A", "B", "G", "R"}, type, compression, origin, Imf::DECREASING_Y});
                 const ExrFile file = readExr(folder / "image.exr");
-                ASSERT_EQ(file.radiance.width, 4u);
-                ASSERT_EQ(file.radiance.height, 3u);
-                EXPECT_EQ(file.radiance.pixels.front(), glm::vec3(3.0f, 2.0f, 1.0f));
-                EXPECT_EQ(file.radiance.at(1, 2), glm::vec3(3.0f, 2.0f, 1.0f) + 9.0f / 16.0f);
-                EXPECT_FALSE(file.variance.has_value());
-                EXPECT_FALSE(file.sampleCounts.has_value());
+                ASSERT_EQ(file.radiance().width, 4u);
+                ASSERT_EQ(file.radiance().height, 3u);
+                EXPECT_EQ(file.radiance().pixels.front(), glm::vec3(3.0f, 2.0f, 1.0f));
+                EXPECT_EQ(file.radiance().at(1, 2), glm::vec3(3.0f, 2.0f, 1.0f) + 9.0f / 16.0f);
+                EXPECT_FALSE(file.hasVariance());
+                EXPECT_TRUE(file.sampleCounts.empty());
             }
+}
+
+TEST(Exr, LayersComeBackByTheirNames) {
+    const TemporaryFolder folder;
+    Rendering rendering = sampleRendering(5, 3);
+    const auto image = [](float first) {
+        Image pixels(5, 3);
+        for (size_t i = 0; i < pixels.pixels.size(); ++i)
+            pixels.pixels[i] = {first + static_cast<float>(i), -1.0f, 0.25f};
+        return pixels;
+    };
+    rendering.layers.push_back({"normal", {"normal.X", "normal.Y", "normal.Z"}, image(1.0f), image(2.0f)});
+    rendering.layers.push_back({"albedo", {"albedo.R", "albedo.G", "albedo.B"}, image(3.0f), std::nullopt});
+    Image alpha = image(4.0f);
+    for (glm::vec3& pixel : alpha.pixels)
+        pixel = {pixel.x, 0.0f, 0.0f};
+    rendering.layers.push_back({"A", {"A"}, alpha, alpha});
+    writeExr(folder / "image.exr", rendering, {});
+    const ExrFile file = readExr(folder / "image.exr");
+    ASSERT_EQ(file.layers.size(), rendering.layers.size());
+    for (const Layer& layer : rendering.layers) {
+        const Layer* same = file.find(layer.name);
+        ASSERT_NE(same, nullptr) << layer.name;
+        EXPECT_EQ(same->channels, layer.channels);
+        EXPECT_EQ(same->mean.pixels, layer.mean.pixels) << layer.name;
+        ASSERT_EQ(same->variance.has_value(), layer.variance.has_value()) << layer.name;
+        if (layer.variance) {
+            EXPECT_EQ(same->variance->pixels, layer.variance->pixels) << layer.name;
+        }
+    }
+    EXPECT_EQ(readExrRadiance(folder / "image.exr", 15).pixels, rendering.radiance().pixels);
+    EXPECT_THROW((void)readExrRadiance(folder / "image.exr", 14), Error);
+}
+
+TEST(Exr, LayersOfOtherProgramsAreThoseOfUpToThreeChannels) {
+    const TemporaryFolder folder;
+    writeForeign(folder / "image.exr",
+                 {{"A", "B", "G", "R", "View.Mist.Z", "View.Normal.X", "View.Normal.Y", "View.Normal.Z",
+                   "id.0", "id.1", "id.2", "id.3", "diffuse.B", "diffuse.G", "diffuse.R", "variance.id.0"}});
+    const ExrFile file = readExr(folder / "image.exr");
+    std::vector<std::string> names;
+    for (const Layer& layer : file.layers)
+        names.push_back(layer.name);
+    EXPECT_EQ(names, (std::vector<std::string>{"color", "A", "View.Mist", "View.Normal", "diffuse"}));
+    EXPECT_EQ(file.find("View.Normal")->mean.pixels.front(), glm::vec3(5.0f, 6.0f, 7.0f));
+    EXPECT_EQ(file.find("View.Mist")->mean.pixels.front(), glm::vec3(4.0f, 0.0f, 0.0f));
+    EXPECT_EQ(file.find("diffuse")->mean.pixels.front(), glm::vec3(14.0f, 13.0f, 12.0f));
+    EXPECT_FALSE(file.find("A")->variance.has_value());
 }
 
 TEST(Exr, LuminanceAloneIsGrey) {
     const TemporaryFolder folder;
     writeForeign(folder / "image.exr", {{"A", "Y"}});
-    EXPECT_EQ(readExr(folder / "image.exr").radiance.at(2, 1), glm::vec3(1.0f + 6.0f / 16.0f));
+    EXPECT_EQ(readExr(folder / "image.exr").radiance().at(2, 1), glm::vec3(1.0f + 6.0f / 16.0f));
 }
 
 TEST(Exr, AFileWithoutColourIsRefusedByTheNamesItHas) {
@@ -308,10 +356,10 @@ fs::path assetFolder() {
 TEST(ExrAssets, RealImagesOfEveryCompressionAreRead) {
     if (assetFolder().empty())
         GTEST_SKIP() << "LAVALIGHT_ASSETS is not set";
-    const Image reference = readExr(assetFolder() / "_env/exr-variants/venice_256_none_float.exr").radiance;
+    const Image reference = readExr(assetFolder() / "_env/exr-variants/venice_256_none_float.exr").radiance();
     int count = 0;
     for (const auto& entry : fs::directory_iterator(assetFolder() / "_env/exr-variants")) {
-        const Image image = readExr(entry.path()).radiance;
+        const Image image = readExr(entry.path()).radiance();
         ASSERT_EQ(image.width, reference.width) << entry.path();
         ASSERT_EQ(image.height, reference.height) << entry.path();
         glm::dvec3 sum(0.0);
@@ -324,7 +372,7 @@ TEST(ExrAssets, RealImagesOfEveryCompressionAreRead) {
         ++count;
     }
     EXPECT_GE(count, 8);
-    EXPECT_GT(readExr(assetFolder() / "CornellBox-Bitterli/reference.exr").radiance.width, 0u);
+    EXPECT_GT(readExr(assetFolder() / "CornellBox-Bitterli/reference.exr").radiance().width, 0u);
 }
 
 TEST(ExrAssets, BrokenFilesAreRefusedOrReadButNeverCrash) {

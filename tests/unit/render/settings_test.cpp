@@ -97,6 +97,15 @@ TEST(Presets, ChangeOneThingAStepAndEndAtTheDefaults) {
     EXPECT_EQ(presets().size(), 6u);
 }
 
+TEST(Presets, TellTheOptionsThatTheySet) {
+    EXPECT_EQ(optionsOf(findPreset("naive")), "--sampler independent --hemisphere uniform --nee off "
+                                              "--light-selection power --roulette off");
+    EXPECT_EQ(optionsOf(findPreset("nee")), "as cosine, with --nee on --mis off");
+    EXPECT_EQ(optionsOf(findPreset("reference")),
+              "all defaults: as roulette, with --sampler sobol --light-selection auto --roulette "
+              "sqrt-throughput");
+}
+
 TEST(Presets, AnUnknownOneIsRefusedWithThoseThereAre) {
     try {
         (void)findPreset("best");
@@ -161,14 +170,6 @@ TEST(Settings, DescriptionLeavesOutHowTheWorkIsCutUp) {
     settings.work.waveSize = 4096;
     settings.work.bandRows = 3;
     EXPECT_EQ(described(settings), described(goodSettings()));
-}
-
-TEST(Settings, EstimatorsHaveNames) {
-    EXPECT_EQ(nameOf(Mis::power), "power");
-    EXPECT_EQ(nameOf(Mis::balance), "balance");
-    EXPECT_EQ(nameOf(Mis::off), "off");
-    EXPECT_EQ(nameOf(Roulette::throughput), "throughput");
-    EXPECT_EQ(nameOf(Roulette::off), "off");
 }
 
 } // namespace

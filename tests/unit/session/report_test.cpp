@@ -5,7 +5,10 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "film/film_identity.h"
+#include "render/setting_table.h"
 #include "session/report.h"
+#include "support/changed_setting.h"
 
 namespace lavalight {
 namespace {
@@ -23,13 +26,15 @@ TEST(Ledger, NamesEveryCauseWithItsFigures) {
     scene.ignoredExtensions = {"KHR_a", "EXT_b"};
     scene.meshes.resize(2);
     scene.meshes[1].name = "ice";
-    const FilmTallies tallies{11, 22, 33, 0.25, 44, {2, 65535}};
+    const FilmTallies tallies{11, 22, 33, 0.25, 44, {2, 65535}, 55, 66};
     const auto ledger = makeLedger(scene, RenderSettings(), tallies, StopReason::samples);
-    ASSERT_EQ(ledger.size(), 5u);
+    ASSERT_EQ(ledger.size(), 7u);
     const std::map<std::string, std::string> figures{{"dropped-samples", "11"},
                                                      {"saturated-sums", "22"},
                                                      {"cut-paths", "33"},
                                                      {"overlapping-solids", "44 paths"},
+                                                     {"negative-samples", "55 samples were negative"},
+                                                     {"limited-values", "66 values"},
                                                      {"ignored-extensions", "KHR_a, EXT_b"}};
     for (const LedgerEntry& entry : ledger)
         EXPECT_NE(entry.detail.find(figures.at(entry.cause)), std::string::npos)
@@ -87,6 +92,25 @@ RenderReport exampleReport() {
     report.warnings = {"first", "second"};
     report.meanRadiance = {0.1, 0.2, 0.3};
     return report;
+}
+
+// Films of the two settings, by their headers; empty if they may be merged.
+std::string differencesOf(const EstimatorSettings& a, const EstimatorSettings& b) {
+    RenderReport report = exampleReport();
+    report.settings.estimator = a;
+    const Metadata first = exrMetadata(report);
+    report.settings.estimator = b;
+    const Metadata second = exrMetadata(report);
+    return differences({first, "a"}, {second, "b"});
+}
+
+TEST(Report, FilmsThatDifferInASettingThatDecidesBitsAreNotMerged) {
+    EXPECT_EQ(differencesOf({}, {}), "");
+    for (const SettingRow& row : settingRows()) {
+        const std::string difference = differencesOf({}, test::withAnother(row));
+        EXPECT_EQ(difference.starts_with("--" + std::string(row.name) + " ("), row.decidesBits)
+            << row.name << ": " << difference;
+    }
 }
 
 TEST(Report, IsJsonWithWhatTheRenderWasAndCost) {

@@ -13,7 +13,6 @@
 #include "session/builtin.h"
 #include "support/faults/faults.h"
 #include "support/temporary_folder.h"
-#include "view/live_render.h"
 #include "view/live_side.h"
 
 namespace lavalight::test {

@@ -115,8 +115,8 @@ TEST_F(LiveRenderTest, PathsAreOfTheSceneThatWasRendered) {
 // A kernel that follows paths serves until settings or shaders change.
 TEST_F(LiveRenderTest, PathsAreOfTheEstimatorAndShadersThatAreShown) {
     const TemporaryFolder folder;
-    std::filesystem::create_directory(folder / "lib");
-    std::string diffuse = readFile(LAVALIGHT_SOURCE_DIR "/shaders/lib/bsdf_diffuse.glsl");
+    std::filesystem::create_directories(folder / "lib/bsdf");
+    std::string diffuse = readFile(LAVALIGHT_SOURCE_DIR "/shaders/lib/bsdf/diffuse.glsl");
     diffuse.insert(diffuse.find("kInvPi * max"), "0.9 * ");
     std::ofstream(folder / "lib/bsdf/diffuse.glsl") << diffuse;
     const LiveRequest plain = requestFor("cornell-box");
@@ -192,7 +192,7 @@ TEST_F(LiveRenderTest, SavesTheImageAndSaysSo) {
     EXPECT_EQ(news.messages.front(),
               "saved " + (folder / "a.exr").string() + ", " + (folder / "a.png").string());
     EXPECT_NE(news.errors.front().find("cannot write"), std::string::npos) << news.errors.front();
-    const std::vector<uint32_t> counts = readExr(folder / "a.exr").sampleCounts.value();
+    const std::vector<uint32_t> counts = readExr(folder / "a.exr").sampleCounts;
     EXPECT_EQ(counts, std::vector<uint32_t>(40 * 30, 8));
     EXPECT_TRUE(std::filesystem::exists(folder / "a.png"));
 }
@@ -202,7 +202,7 @@ TEST_F(LiveRenderTest, WhatCannotBeRenderedIsToldAndTheImageBeforeGoesOn) {
     render_.show(before);
     (void)waitForImage();
     const TemporaryFolder folder;
-    std::filesystem::create_directory(folder / "lib");
+    std::filesystem::create_directories(folder / "lib/sampling");
     std::ofstream(folder / "lib/sampling/roulette.glsl") << "this is no shader";
     LiveRequest broken = requestFor("veach-mis");
     broken.shaders = std::make_shared<ShaderOverlay>(folder.path());

@@ -250,7 +250,7 @@ TEST_F(PanelTest, SettingsThatOthersNeedComeAndGoWithThem) {
     EXPECT_FALSE(estimator.misSurvival) << "it has no meaning there";
     click("Lavalight", "left/clamp indirect light");
     EXPECT_EQ(estimator.clampIndirect, 10.0f);
-    drag("Lavalight", "left/at most", 50.0f);
+    drag("Lavalight", "left/at most##clamp indirect light", 50.0f);
     EXPECT_GT(estimator.clampIndirect, 10.0f);
     click("Lavalight", "left/clamp indirect light");
     EXPECT_EQ(estimator.clampIndirect, std::numeric_limits<float>::infinity());

@@ -1,0 +1,95 @@
+#include "image/exr_layers.h"
+
+#include <algorithm>
+#include <map>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+
+namespace lavalight {
+namespace {
+
+using Names = std::vector<std::string>;
+using Channels = std::span<const ExrChannel>;
+
+constexpr std::string_view kVariance = "variance."; // before the name of the channel that it is of
+
+std::string textOf(Channels channels) {
+    std::string names;
+    for (const ExrChannel& channel : channels)
+        names += (names.empty() ? "" : ", ") + channel.name;
+    return names;
+}
+
+bool has(Channels channels, std::string_view name) {
+    return std::any_of(channels.begin(), channels.end(),
+                       [&](const ExrChannel& c) { return c.name == name && c.hasAllPixels; });
+}
+
+bool hasAll(Channels channels, const Names& names) {
+    return std::all_of(names.begin(), names.end(), [&](const std::string& n) { return has(channels, n); });
+}
+
+// Y beside chroma (RY, BY) is an encoded colour image, which grey would misread.
+bool isLuminance(Channels channels) {
+    return has(channels, kLuminance) &&
+           std::none_of(channels.begin(), channels.end(),
+                        [](const ExrChannel& c) { return c.name == "RY" || c.name == "BY"; });
+}
+
+// "normal" of "normal.X"; a channel without a dot is a layer of its own.
+std::string layerOf(const std::string& channel) {
+    return channel.substr(0, channel.rfind('.'));
+}
+
+// R, G, B in that order, all others as they are.
+Names inOrder(const std::string& layer, const Names& channels) {
+    const Names color{layer + ".R", layer + ".G", layer + ".B"};
+    return std::is_permutation(channels.begin(), channels.end(), color.begin(), color.end()) ? color
+                                                                                             : channels;
+}
+
+bool mayBeLayer(const ExrChannel& channel) {
+    const bool isColor =
+        channel.name == "R" || channel.name == "G" || channel.name == "B" || channel.name == kLuminance;
+    return !isColor && channel.isFloat && channel.hasAllPixels && !channel.name.starts_with(kVariance);
+}
+
+} // namespace
+
+std::vector<std::string> varianceChannels(const std::vector<std::string>& channels) {
+    Names names;
+    for (const std::string& channel : channels)
+        names.push_back(std::string(kVariance) + channel);
+    return names;
+}
+
+Layer colorLayerIn(std::span<const ExrChannel> channels) {
+    Layer layer = colorLayer({}, std::nullopt);
+    if (hasAll(channels, layer.channels))
+        return layer;
+    if (!isLuminance(channels))
+        throw Error(fmt::format("it lacks channels R, G, B (or Y alone) at full resolution; it has {}",
+                                textOf(channels)));
+    layer.channels = {kLuminance};
+    return layer;
+}
+
+std::vector<Layer> layersIn(std::span<const ExrChannel> channels) {
+    std::map<std::string, Names> byLayer;
+    for (const ExrChannel& channel : channels)
+        if (mayBeLayer(channel))
+            byLayer[layerOf(channel.name)].push_back(channel.name);
+    std::vector<Layer> layers{colorLayerIn(channels)};
+    for (const auto& [name, itsChannels] : byLayer)
+        if (itsChannels.size() <= kMostComponents && name != kColorLayer)
+            layers.push_back({name, inOrder(name, itsChannels), {}, std::nullopt});
+    for (Layer& layer : layers)
+        if (hasAll(channels, varianceChannels(layer.channels)))
+            layer.variance.emplace();
+    return layers;
+}
+
+} // namespace lavalight

@@ -1,0 +1,79 @@
+// What a render leaves behind: layers of an image, with what is known of their noise.
+#pragma once
+
+#include <algorithm>
+#include <cassert>
+#include <cstdint>
+#include <numeric>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "image/image.h"
+
+namespace lavalight {
+
+// Means of one kind over the samples of each pixel.
+struct Layer {
+    std::string name;
+    std::vector<std::string> channels; // one to three: what EXR files call the components
+    Image mean;                        // components without a channel are 0
+    std::optional<Image> variance;     // of the mean, per channel; 0 where fewer than two samples were taken
+};
+
+// The layer of radiance.
+inline constexpr const char* kColorLayer = "color";
+
+[[nodiscard]] inline Layer colorLayer(Image mean, std::optional<Image> variance) {
+    return {kColorLayer, {"R", "G", "B"}, std::move(mean), std::move(variance)};
+}
+
+[[nodiscard]] inline uint64_t totalOf(std::span<const uint32_t> counts) {
+    return std::accumulate(counts.begin(), counts.end(), uint64_t{0});
+}
+
+struct Rendering {
+    std::vector<Layer> layers;          // of one size and with different names; the first is radiance
+    std::vector<uint32_t> sampleCounts; // row by row from the top; empty: not known
+
+    Rendering() = default;
+    Rendering(Image radiance, std::optional<Image> variance, std::vector<uint32_t> counts)
+        : sampleCounts(std::move(counts)) {
+        layers.push_back(colorLayer(std::move(radiance), std::move(variance)));
+    }
+
+    [[nodiscard]] const Image& radiance() const& { return color().mean; }
+    [[nodiscard]] Image& radiance() & { return color().mean; }
+    [[nodiscard]] Image radiance() && { return std::move(color().mean); }
+
+    [[nodiscard]] bool hasVariance() const { return color().variance.has_value(); }
+    // The variance of radiance, which there must be.
+    [[nodiscard]] const Image& variance() const& { return color().variance.value(); }
+    [[nodiscard]] Image& variance() & { return color().variance.value(); }
+    [[nodiscard]] Image variance() && { return std::move(color().variance).value(); }
+
+    // Samples over all pixels.
+    [[nodiscard]] uint64_t samples() const { return totalOf(sampleCounts); }
+
+    // The layer of that name, or null.
+    [[nodiscard]] const Layer* find(std::string_view name) const {
+        const auto found = std::find_if(layers.begin(), layers.end(),
+                                        [&](const Layer& layer) { return layer.name == name; });
+        return found == layers.end() ? nullptr : &*found;
+    }
+
+  private:
+    [[nodiscard]] const Layer& color() const {
+        assert(!layers.empty());
+        return layers.front();
+    }
+    [[nodiscard]] Layer& color() {
+        assert(!layers.empty());
+        return layers.front();
+    }
+};
+
+} // namespace lavalight
