@@ -2,11 +2,11 @@
 #include "base/named.h"
 
 #include <algorithm>
-#include <charconv>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/parse.h"
 
 namespace lavalight {
 
@@ -14,11 +14,9 @@ size_t findNamed(const std::vector<std::string>& names, const Wanted& wanted) {
     const auto found = std::find(names.begin(), names.end(), wanted.text);
     if (found != names.end())
         return static_cast<size_t>(found - names.begin());
-    size_t number = 0;
-    const char* last = wanted.text.data() + wanted.text.size();
-    const auto [end, error] = std::from_chars(wanted.text.data(), last, number);
-    if (!wanted.text.empty() && error == std::errc() && end == last && number < names.size())
-        return number;
+    const auto number = parseNumber<size_t>(wanted.text);
+    if (number && *number < names.size())
+        return *number;
     std::string known = names.empty() ? "none" : "";
     for (size_t i = 0; i < names.size(); ++i)
         known += fmt::format("{}{} \"{}\"", i > 0 ? ", " : "", i, names[i]);

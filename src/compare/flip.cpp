@@ -3,18 +3,17 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
 #include <functional>
 #include <limits>
 #include <numbers>
 #include <numeric>
 #include <span>
-#include <thread>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/parallel.h"
 #include "compare/flip_colours.h"
 #include "compare/flip_filters.h"
 
@@ -146,18 +145,11 @@ void requireComparable(const Image& image, const Image& reference) {
 // Calls work(strip) for all strips of an image, on all processors.
 void forEachStrip(const Image& image, uint32_t reach, const std::function<void(const Strip&)>& work) {
     const uint32_t strips = (image.height + kStripRows - 1) / kStripRows;
-    std::atomic<uint32_t> next = 0;
-    const auto run = [&] {
-        for (uint32_t i = next++; i < strips; i = next++) {
-            const uint32_t first = i * kStripRows;
-            const uint32_t end = std::min(first + kStripRows, image.height);
-            work({first, end, first - std::min(first, reach), std::min(end + reach, image.height)});
-        }
-    };
-    std::vector<std::jthread> threads;
-    for (uint32_t i = 1; i < std::min(strips, std::thread::hardware_concurrency()); ++i)
-        threads.emplace_back(run);
-    run();
+    forEachInParallel(strips, [&](size_t i) {
+        const uint32_t first = static_cast<uint32_t>(i) * kStripRows;
+        const uint32_t end = std::min(first + kStripRows, image.height);
+        work({first, end, first - std::min(first, reach), std::min(end + reach, image.height)});
+    });
 }
 
 // The largest error over several ways to display both images.

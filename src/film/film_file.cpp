@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <charconv>
 #include <optional>
 #include <span>
 
@@ -12,6 +11,7 @@
 
 #include "base/content_hash.h"
 #include "base/error.h"
+#include "base/parse.h"
 
 namespace lavalight {
 namespace {
@@ -68,17 +68,16 @@ std::string hashOf(Size size, const std::vector<uint32_t>& words, Metadata metad
 template <typename Number, size_t N>
 std::optional<std::array<Number, N>> parseNumbers(std::string_view text, size_t least = N) {
     std::array<Number, N> numbers{};
-    const char* at = text.data();
-    const char* const end = text.data() + text.size();
-    for (size_t i = 0; i < N && (i < least || at != end); ++i) {
-        if (i > 0 && (at == end || *at++ != ','))
+    for (size_t i = 0; i < N && (i < least || !text.empty()); ++i) {
+        if (i > 0 && !text.starts_with(','))
             return std::nullopt;
-        const auto parsed = std::from_chars(at, end, numbers[i]);
-        if (parsed.ec != std::errc())
+        text.remove_prefix(i > 0 ? 1 : 0);
+        const auto number = takeNumber<Number>(text);
+        if (!number)
             return std::nullopt;
-        at = parsed.ptr;
+        numbers[i] = *number;
     }
-    return at == end ? std::optional(numbers) : std::nullopt;
+    return text.empty() ? std::optional(numbers) : std::nullopt;
 }
 
 // Tallies of the oldest films; later versions count more.

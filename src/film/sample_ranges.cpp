@@ -1,9 +1,10 @@
 #include "film/sample_ranges.h"
 
 #include <algorithm>
-#include <charconv>
 
 #include <fmt/format.h>
+
+#include "base/parse.h"
 
 namespace lavalight {
 namespace {
@@ -12,16 +13,16 @@ constexpr uint32_t kMostSamples = 0x7fffffff;
 
 // Takes "A:B" off the front of `text`.
 std::optional<SampleRange> takeRange(std::string_view& text) {
-    SampleRange range;
-    const char* const end = text.data() + text.size();
-    const auto first = std::from_chars(text.data(), end, range.first);
-    if (first.ec != std::errc() || first.ptr == end || *first.ptr != ':')
+    std::string_view rest = text;
+    const auto first = takeNumber<uint32_t>(rest);
+    if (!first || !rest.starts_with(':'))
         return std::nullopt;
-    const auto last = std::from_chars(first.ptr + 1, end, range.end);
-    if (last.ec != std::errc() || range.first >= range.end || range.end > kMostSamples)
+    rest.remove_prefix(1);
+    const auto end = takeNumber<uint32_t>(rest);
+    if (!end || *first >= *end || *end > kMostSamples)
         return std::nullopt;
-    text.remove_prefix(static_cast<size_t>(last.ptr - text.data()));
-    return range;
+    text = rest;
+    return SampleRange{*first, *end};
 }
 
 } // namespace

@@ -3,9 +3,9 @@
 #include "image/hdr.h"
 
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -13,6 +13,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/parse.h"
 
 namespace lavalight {
 namespace {
@@ -75,11 +76,10 @@ class Reader {
 
 template <typename Number>
 Number parse(std::string_view text, const char* what) {
-    Number value{};
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size())
+    const std::optional<Number> value = parseNumber<Number>(text);
+    if (!value)
         throw Error(fmt::format("its {} is not a number", what));
-    return value;
+    return *value;
 }
 
 std::string_view trimmed(std::string_view text) {

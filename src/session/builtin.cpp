@@ -2,7 +2,6 @@
 #include "session/builtin.h"
 
 #include <algorithm>
-#include <charconv>
 #include <filesystem>
 #include <optional>
 #include <span>
@@ -13,6 +12,7 @@
 
 #include "base/embedded_file.h"
 #include "base/error.h"
+#include "base/parse.h"
 #include "gltf/import.h"
 #include "scene/procedural/dense_scene.h"
 #include "scene/procedural/lamps_scene.h"
@@ -44,11 +44,7 @@ std::optional<uint32_t> countAfter(std::string_view prefix, std::string_view nam
     if (!name.starts_with(prefix))
         return std::nullopt;
     name.remove_prefix(prefix.size());
-    uint32_t count = 0;
-    const auto parsed = std::from_chars(name.data(), name.data() + name.size(), count);
-    if (parsed.ec != std::errc() || parsed.ptr != name.data() + name.size())
-        return std::nullopt;
-    return count;
+    return parseNumber<uint32_t>(name);
 }
 
 } // namespace

@@ -1,14 +1,14 @@
 #include "cli/commands/compare_command.h"
 
-#include <charconv>
 #include <functional>
-#include <system_error>
+#include <optional>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "base/file.h"
 #include "base/log.h"
+#include "base/parse.h"
 #include "compare/compare_report.h"
 #include "compare/comparison_output.h"
 
@@ -18,10 +18,8 @@ namespace {
 // CLI11's own range check lets NaN pass.
 CLI::Validator numberThat(const std::function<bool(double)>& isMeant, const std::string& range) {
     return {[isMeant, range](const std::string& text) -> std::string {
-                double value = 0.0;
-                const auto parsed = std::from_chars(text.data(), text.data() + text.size(), value);
-                const bool isNumber = parsed.ec == std::errc() && parsed.ptr == text.data() + text.size();
-                return isNumber && isMeant(value) ? "" : fmt::format("{} is no number {}", text, range);
+                const std::optional<double> value = parseNumber<double>(text);
+                return value && isMeant(*value) ? "" : fmt::format("{} is no number {}", text, range);
             },
             range};
 }

@@ -2,13 +2,12 @@
 #include "gltf/read/pictures.h"
 
 #include <algorithm>
-#include <atomic>
 #include <map>
-#include <thread>
 
 #include <fmt/format.h>
 
 #include "base/os/memory.h"
+#include "base/parallel.h"
 
 namespace lavalight {
 namespace {
@@ -65,16 +64,7 @@ void requireFitting(const GltfDocument& document, const std::vector<Job>& jobs) 
 }
 
 void decodeAll(const GltfDocument& document, std::vector<Job>& jobs) {
-    std::atomic<size_t> next = 0;
-    const auto work = [&] {
-        for (size_t i = next++; i < jobs.size(); i = next++)
-            decode(document, jobs[i]);
-    };
-    const size_t processors = std::max(1u, std::thread::hardware_concurrency());
-    std::vector<std::jthread> threads;
-    for (size_t i = 1; i < std::min(jobs.size(), processors); ++i)
-        threads.emplace_back(work);
-    work();
+    forEachInParallel(jobs.size(), [&](size_t i) { decode(document, jobs[i]); });
 }
 
 std::vector<Job> jobsOf(const std::vector<Material>& materials) {

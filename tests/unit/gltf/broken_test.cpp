@@ -162,7 +162,7 @@ TEST(BrokenGltf, CamerasNeedTheProjectionOfTheirType) {
 }
 
 TEST(BrokenGltf, SkinsNeedJoints) {
-    expectErrorAfter("/skins", {Json::object()}, "skins[0] has no \"joints\"");
+    expectErrorAfter("/skins", Json::array({Json::object()}), "skins[0] has no \"joints\"");
 }
 
 TEST(BrokenGltf, ChannelsWithoutANodeMoveNothing) {
