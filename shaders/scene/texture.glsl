@@ -2,6 +2,7 @@
 #include "lib/estimator.glsl"
 #include "lib/texture_filter.glsl"
 #include "shared/bindings.h"
+#include "shared/surface_id.h"
 #include "shared/texture.h"
 
 layout(set = 0, binding = BINDING_PICTURES) uniform utextureBuffer pictures;
