@@ -165,13 +165,13 @@ TEST_F(CheckpointRefusal, OfAnotherRender) {
 
 // A comment changes no kernel.
 TEST_F(CheckpointRefusal, OfOtherShaders) {
-    const std::string text = readFile(fs::path(LAVALIGHT_SOURCE_DIR) / "shaders/lib/roulette.glsl");
-    fs::create_directories(at("mine/lib"));
-    writeFileAtomically(at("mine/lib/roulette.glsl"), text + "\n// A comment.\n");
+    const std::string text = readFile(fs::path(LAVALIGHT_SOURCE_DIR) / "shaders/lib/sampling/roulette.glsl");
+    fs::create_directories(at("mine/lib/sampling"));
+    writeFileAtomically(at("mine/lib/sampling/roulette.glsl"), text + "\n// A comment.\n");
     expectSuccess(render({"--checkpoint", "c.exr", "--resume", "-o", "b.exr", "--shaders", "mine"}, "0:4"));
     const std::string cap = "kMaxSurvival = 0.95";
     std::string other = text;
-    writeFileAtomically(at("mine/lib/roulette.glsl"),
+    writeFileAtomically(at("mine/lib/sampling/roulette.glsl"),
                         other.replace(text.find(cap), cap.size(), "kMaxSurvival = 0.9"));
     fs::remove(at("b.exr"));
     expectOther({"--shaders", "mine"}, "shaders (content ");
