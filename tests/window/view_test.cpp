@@ -131,7 +131,7 @@ TEST_F(View, SettingsOfThePanelRestartTheImage) {
     expectShown(rendered({"cornell-box"}, size));
     key("Tab");
     std::this_thread::sleep_for(std::chrono::milliseconds(300));
-    desktop_.input("mousemove --window " + window_ + " 30 388 sleep 0.2 click 1"); // next-event estimation
+    desktop_.input("mousemove --window " + window_ + " 30 319 sleep 0.2 click 1"); // next-event estimation
     key("Tab");
     expectShown(rendered({"cornell-box", "--nee", "off"}, size));
     quit();
@@ -217,7 +217,7 @@ TEST_F(View, SavesWhereTheCameraIs) {
 }
 
 TEST_F(View, CompilesShadersAtEverySaveAndGoesOnWhereTheyAreBroken) {
-    const std::string file = (folder_ / "mine/lib/roulette.glsl").string();
+    const std::string file = (folder_ / "mine/lib/sampling/roulette.glsl").string();
     ASSERT_EQ(runLavalight({"new-experiment", "mine", "lib/sampling/roulette.glsl"}, folder_.path()).exitCode,
               0);
     const std::string ours = readFile(file);
@@ -231,7 +231,7 @@ TEST_F(View, CompilesShadersAtEverySaveAndGoesOnWhereTheyAreBroken) {
     open(words);
     expectShown(rendered({"cornell-box"}));
     save(";");
-    ASSERT_TRUE(program_->waitForText("mine/lib/roulette.glsl:6"));
+    ASSERT_TRUE(program_->waitForText("mine/lib/sampling/roulette.glsl:6"));
     save("0.2");
     ASSERT_TRUE(program_->waitForText("changed: path"));
     waitFor(kDone);
