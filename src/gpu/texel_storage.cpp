@@ -41,6 +41,7 @@ enum Op : uint32_t {
     OpImageQuerySize = 104,
 };
 constexpr uint32_t DimBuffer = 5;
+constexpr uint32_t ImageOperandsZeroExtend = 0x2000;
 constexpr uint32_t StorageClassStorageBuffer = 12;
 constexpr uint32_t DecorationBlock = 2;
 constexpr uint32_t DecorationArrayStride = 6;
@@ -62,6 +63,13 @@ void append(Words& words, spv::Op op, std::initializer_list<uint32_t> operands) 
 
 bool isType(spv::Op op) {
     return op >= spv::OpTypeVoid && op <= spv::OpTypeForwardPointer;
+}
+
+// Whether a fetch has no operand that changes its result: uvec4 texels of 32 bits need no extension.
+bool isPlain(Instruction fetch) {
+    constexpr size_t kWords = 5; // without operands
+    return fetch.size() == kWords ||
+           (fetch.size() == kWords + 1 && fetch[kWords] == spv::ImageOperandsZeroExtend);
 }
 
 class Rewriter {
@@ -158,8 +166,8 @@ class Rewriter {
             break;
         case spv::OpImageFetch: {
             const auto variable = loaded_.find(i[3]);
-            if (variable == loaded_.end() || i.size() != 5)
-                refuse("fetches from what is no texel buffer");
+            if (variable == loaded_.end() || !isPlain(i))
+                refuse("fetches from something other than a texel buffer");
             const uint32_t element = next_++;
             append(words, spv::OpAccessChain, {texelPointer_, element, variable->second, zero_, i[4]});
             append(words, spv::OpLoad, {i[1], i[2], element});
