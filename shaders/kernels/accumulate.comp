@@ -32,7 +32,7 @@ void fill(uint plane, uint firstSlot, uint pixel, inout FilmEvents events) {
         else
             ++dropped;
     }
-    events.dropped = dropped; // the same of all planes
+    events.dropped = dropped; // all planes drop the same samples
     events.saturated += saturatedSums(plane, sums) - saturatedBefore;
     storeSums(plane, pixel, sums);
 }

@@ -19,10 +19,10 @@ struct ComponentSums {
 struct PlaneSums {
     ComponentSums x;
     ComponentSums y; // in planes of two components
-    ComponentSums z; // of three
+    ComponentSums z; // in planes of three
 };
 
-// What the ledger hears of.
+// Events that the ledger reports.
 struct FilmEvents {
     uint dropped;
     uint negative;

@@ -18,7 +18,7 @@ struct RayFilter {
     bool cullBackFaces;      // the backs of single-sided triangles, as camera rays do
     SurfaceId firstSurface;  // or kNoSurface
     SurfaceId secondSurface;
-    uint alphaSeed;          // of its decisions where surfaces may let it through: scene/alpha.glsl
+    uint alphaSeed;          // seed of the decisions where surfaces may let the ray through: scene/alpha.glsl
 };
 
 // The nearest hit with 0 < t < tMax. `direction` has a length near 1.

@@ -25,7 +25,7 @@ Hit trace(Ray ray, uint slot, uint bounce) {
     return hit;
 }
 
-// Of the vertex after `bounce` others.
+// Whether something stops the shadow ray of the vertex after `bounce` others.
 bool isOccluded(ShadowRay ray, uint slot, uint bounce) {
     const RayFilter ignored = RayFilter(false, ray.fromSurface, ray.toSurface,
                                         alphaSeed(keyOfSlot(slot, bounce + 1u), kDimensionShadowAlpha));

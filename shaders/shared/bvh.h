@@ -38,7 +38,7 @@ SHARED_CONST uint kMaxLeafTriangles = 4u;
 SHARED_CONST uint kSlotCountShift = 5u;
 SHARED_CONST uint kSlotCountMask = 7u;
 SHARED_CONST uint kSlotOffsetMask = 31u;
-SHARED_CONST uint kSlotIsNode = 7u; // its count
+SHARED_CONST uint kSlotIsNode = 7u; // count of a slot that holds a node
 
 // Levels of nodes: the builder makes no deeper tree.
 SHARED_CONST uint kMaxBvhLevels = 40u;

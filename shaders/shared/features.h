@@ -26,7 +26,7 @@ SHARED_CONST SceneFeatures kFeatureEnvironment = SHARED_FEATURE(7u);
 SHARED_CONST SceneFeatures kFeatureLightTree = SHARED_FEATURE(8u);
 SHARED_CONST SceneFeatures kFeatureTextures = SHARED_FEATURE(9u);
 SHARED_CONST SceneFeatures kFeatureVertexColors = SHARED_FEATURE(10u);
-SHARED_CONST SceneFeatures kFeatureTangents = SHARED_FEATURE(11u); // of normal maps and anisotropy
+SHARED_CONST SceneFeatures kFeatureTangents = SHARED_FEATURE(11u); // tangents of normal maps and anisotropy
 SHARED_CONST SceneFeatures kFeatureAlpha = SHARED_FEATURE(12u);
 SHARED_CONST SceneFeatures kFeatureUnlit = SHARED_FEATURE(13u);
 SHARED_CONST SceneFeatures kFeatureEnvironmentMap = SHARED_FEATURE(14u);
@@ -39,8 +39,8 @@ SHARED_CONST SceneFeatures kFeatureIridescence = SHARED_FEATURE(20u);
 SHARED_CONST SceneFeatures kFeatureDiffuseTransmission = SHARED_FEATURE(21u);
 SHARED_CONST SceneFeatures kFeatureLights = SHARED_FEATURE(22u);           // there are any
 SHARED_CONST SceneFeatures kFeatureEnvironmentLight = SHARED_FEATURE(23u); // the environment is among them
-// From here on in the second word.
-SHARED_CONST SceneFeatures kFeatureLens = SHARED_FEATURE(32u); // of the camera, as the next two
+// Bits of the second word.
+SHARED_CONST SceneFeatures kFeatureLens = SHARED_FEATURE(32u); // the camera's, as the next two
 SHARED_CONST SceneFeatures kFeaturePanorama = SHARED_FEATURE(33u);
 SHARED_CONST SceneFeatures kFeatureOrthographic = SHARED_FEATURE(34u);
 SHARED_CONST SceneFeatures kFeatureSolids = SHARED_FEATURE(35u);        // two solids that may overlap

@@ -19,8 +19,8 @@ SHARED_CONST float kMostSigned = 140737488355328.0f;
 SHARED_CONST uint kSquareWords = 4u;
 SHARED_CONST int kSquareLowestExponent = -64;
 
-// A plane: what samples have of one kind. Its words hold one component after another, each the sum's words, then the
-// square's, lowest first.
+// A plane holds one kind of value that samples have. Its words hold one component after another, each the sum's words,
+// then the square's, lowest first.
 struct FilmPlane {
     uint components; // 1 to 3
     uint isSigned;   // 0: negative values are counted, and taken for 0

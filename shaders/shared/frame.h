@@ -16,13 +16,13 @@ struct FrameParameters {
     vec3 cameraForward; // unit length
     uint seed;
     vec3 environment; // constant radiance, or what the map's texels are multiplied by
-    uint lightColumns; // of the alias table of lights; 0: there are no lights
-    vec3 sceneCenter; // of the sphere around everything, where light from infinity starts
+    uint lightColumns; // columns of the alias table of lights; 0: there are no lights
+    vec3 sceneCenter; // centre of the sphere around everything, where light from infinity starts
     float sceneRadius;
     uint environmentLight; // index among the lights, or kNoLight
     uint maxBounces;
     uint rouletteStart; // first vertex (the camera's first hit is vertex 1) where a path may die
-    float rouletteProbability; // of survival, for the constant kind
+    float rouletteProbability; // probability of survival, for the constant kind
     float clampIndirect; // largest channel of what a path may bring from beyond its first vertex; infinite: no clamp
     uint bandPixels;     // pixels of the film at hand
     uint waveSize;       // slots
@@ -45,12 +45,12 @@ struct FrameParameters {
 #define CONSTANT_ROULETTE 4
 #define CONSTANT_MIS_SURVIVAL 5
 #define CONSTANT_FRESNEL 6
-#define CONSTANT_FEATURES 7 // of the scene, not of the estimator (lib/features.glsl)
-#define CONSTANT_MORE_FEATURES 11 // the second word of them
-#define CONSTANT_COUNT_VISITS 8 // of traversal (scene/intersect.glsl)
+#define CONSTANT_FEATURES 7 // features of the scene, not of the estimator (lib/features.glsl)
+#define CONSTANT_MORE_FEATURES 11 // the second word of features
+#define CONSTANT_COUNT_VISITS 8 // visits of traversal (scene/intersect.glsl)
 #define CONSTANT_MULTIPLE_SCATTERING 9
 #define CONSTANT_TEXTURE_FILTER 10
-#define CONSTANT_FILM_PLANES 12 // of the film (scene/film.glsl)
+#define CONSTANT_FILM_PLANES 12 // planes of the film (scene/film.glsl)
 
 SHARED_CONST uint kProjectionPerspective = 0u;
 SHARED_CONST uint kProjectionOrthographic = 1u;

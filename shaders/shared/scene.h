@@ -32,7 +32,7 @@ struct MaterialRecord {
     float transmission;
     uint flags;        // kMaterial...
     uint textureSlots; // bit i: slot i has a texture
-    uint firstTexture; // of its textures, which lie in the order of their slots
+    uint firstTexture; // index of the first of its textures, which lie in the order of their slots
     float alpha;
     float alphaCutoff; // below 0: the alpha itself is the probability of being hit
     float normalScale;
@@ -82,7 +82,7 @@ SHARED_CONST uint kSlotDiffuseTransmissionColor = 16u;
 // One texel a light: its column of the alias table, and what it is. Lights of the tree have no column of their own; the
 // tree as a whole has one, after those of all other lights.
 struct LightRecord {
-    float probability; // of staying in this column
+    float probability; // probability of staying in this column
     uint alias;        // the other light of this column; of a light in the tree: bit i is set where its path leads into
                        // the second child, i levels below the root
     float pmf;         // with which the whole table picks this light, or the tree that it is in
@@ -98,10 +98,10 @@ SHARED_CONST uint kLightTree = 3u; // no light itself
 
 // Two texels a node of the light tree: what its lights may send where. Children are neighbours; the root is node 0.
 struct LightTreeRecord {
-    vec3 center; // of a sphere around all lights
+    vec3 center; // centre of a sphere around all lights
     float radius;
-    uint axis;       // of the cone of normals, octahedral
-    uint cosines;    // of the cone's half angle, and of the angle around each normal within which light leaves: snorm 2x16
+    uint axis;       // axis of the cone of normals, octahedral
+    uint cosines;    // cosine of the cone's half angle, and of the angle around each normal within which light leaves: snorm 2x16
     float intensity; // W/sr along the normals, of all lights together
     uint reference;  // flags, and the light, or the first child
 };

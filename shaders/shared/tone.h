@@ -9,9 +9,9 @@ LAVALIGHT_SHARED_BEGIN
 
 // Push constants.
 struct ToneRange {
-    uint bandPixels; // of the film at hand
-    uint firstPixel; // of this dispatch, in the band
-    float scale;     // of radiance: 2^exposure
+    uint bandPixels; // pixels of the film at hand
+    uint firstPixel; // first pixel of this dispatch, in the band
+    float scale;     // factor of radiance: 2^exposure
     uint countWord;  // index of the word plane that counts samples
     uint firstWord;  // index of the first word plane of the plane that is shown
     FilmPlane plane;
@@ -20,7 +20,7 @@ struct ToneRange {
 // A specialisation constant: the curve picks code.
 #define CONSTANT_TONE_CURVE 0
 
-// Its values; ToneCurve in C++ uses the same numbers.
+// Values of the tone curve; ToneCurve in C++ uses the same numbers.
 SHARED_CONST uint kToneLinear = 0u;
 SHARED_CONST uint kToneNeutral = 1u;
 SHARED_CONST uint kToneAgx = 2u;

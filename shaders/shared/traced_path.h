@@ -8,16 +8,16 @@
 LAVALIGHT_SHARED_BEGIN
 
 struct TracedVertex {
-    vec3 position; // of the hit; of the direction, where nothing was hit
+    vec3 position; // point of the hit; direction, where nothing was hit
     float t;       // distance from the vertex before; infinite: nothing was hit
-    vec3 throughput; // of the path before this vertex
+    vec3 throughput; // throughput of the path before this vertex
     SurfaceId surface; // or kNoSurface
     vec3 emitted; // what the pixel got from this vertex's own light, or the environment's
     uint material;
     vec3 direct; // what NEE brings if its shadow ray arrives
     uint flags;  // kTraced...
-    vec3 direction; // in which the path goes on, or would have but for roulette; else 0
-    float pdf;      // of it, per solid angle, as MIS takes it; 0: delta lobe
+    vec3 direction; // direction in which the path goes on, or would have but for roulette; else 0
+    float pdf;      // density of the direction per solid angle, as MIS takes it; 0: delta lobe
     float survival; // probability that roulette left it; 1: there was none
     uint unused[3];
 };

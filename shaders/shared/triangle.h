@@ -20,7 +20,7 @@ struct TriangleRecord {
 SHARED_CONST uint kTriangleTexels = 3u;
 
 SHARED_CONST uint kNoEmitter = 0xffffffffu;
-SHARED_CONST uint kNeverCulledBit = 0x80000000u; // its back face is seen by camera rays too (double sided)
+SHARED_CONST uint kNeverCulledBit = 0x80000000u; // camera rays see the back face too (double sided)
 
 // Index among the emitters of what shines there, or kNoEmitter.
 SHARED_FUNCTION uint emitterOf(TriangleRecord triangle) {

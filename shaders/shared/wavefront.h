@@ -13,7 +13,7 @@ SHARED_CONST uint kWorkgroupSize = 64u;
 // The ray a slot's path goes on with. The direction has unit length.
 struct Ray {
     vec3 origin;
-    SurfaceId fromSurface; // that it starts on, or kNoSurface
+    SurfaceId fromSurface; // surface that the ray starts on, or kNoSurface
     vec3 direction;
     float originCosine; // between the direction and the shading normal where it starts
     uint receiver;      // packed (scene/receiver.glsl): what the light tree was asked for there
@@ -23,7 +23,7 @@ struct Ray {
 // Where that ray meets the scene first.
 struct Hit {
     float t; // distance; infinite: nothing was hit, and the rest is undefined
-    uint record; // of the triangle, in the order of the accelerator: scene/triangle_record.glsl tells what surface it is
+    uint record; // the triangle's record, in the order of the accelerator: scene/triangle_record.glsl tells what surface it is
     vec2 barycentrics; // b1, b2: the point is (1 - b1 - b2) v0 + b1 v1 + b2 v2
 };
 
@@ -38,9 +38,9 @@ struct Path {
 // way to the light).
 struct ShadowRay {
     vec3 origin;
-    SurfaceId fromSurface; // that it starts on, or kNoSurface
+    SurfaceId fromSurface; // surface that the ray starts on, or kNoSurface
     vec3 direction;
-    SurfaceId toSurface; // that it ends on
+    SurfaceId toSurface; // surface that the ray ends on
     vec3 contribution;
     float unused;
 };
@@ -49,18 +49,18 @@ struct ShadowRay {
 struct Lane {
     Ray ray;
     uint slot;
-    uint wave;    // of which the rest tells
+    uint wave;    // wave that the rest tells of
     uint bounce;  // 0: no path is under way
     uint started; // slots of which the camera ray was traced
     uint waiting; // paths that were put by after their first vertex
-    uint resumed; // of which so many have been taken up again
+    uint resumed; // waiting paths that have been taken up again
     uint unused0;
     uint unused1;
 };
 
 // A path put by; the rest of it is with its slot.
 struct WaitingPath {
-    Ray ray; // that it goes on with
+    Ray ray; // ray that the path goes on with
     uint slot;
     uint unused0;
     uint unused1;

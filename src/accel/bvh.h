@@ -12,7 +12,7 @@
 namespace lavalight {
 
 struct BvhConfig {
-    float triangleCost = 0.3f; // of a triangle's test relative to that of a node's boxes
+    float triangleCost = 0.3f; // cost of a triangle's test relative to that of a node's boxes
     float splitBudget = 0.2f;  // splitting large triangles may add this share of references
     uint32_t threads = 0;      // 0: as many as there are cores; the tree does not depend on it
 };
@@ -20,8 +20,8 @@ struct BvhConfig {
 struct Bvh {
     std::vector<BvhNode> nodes;          // node 0 is the root; a node's inner children are neighbours
     std::vector<uint32_t> leafTriangles; // triangle ids in leaf order; split triangles repeat
-    uint32_t levels = 0;                 // of nodes; at most kMaxBvhLevels
-    Bounds bounds;                       // of all triangles; both corners 0 without any
+    uint32_t levels = 0;                 // levels of nodes; at most kMaxBvhLevels
+    Bounds bounds;                       // box around all triangles; both corners 0 without any
     double buildSeconds = 0.0;
 };
 

@@ -87,7 +87,8 @@ std::vector<RTCBuildPrimitive> toPrimitives(std::span<const Fragment> fragments,
 const BuildNode* buildEmbreeTree(BuildContext& context, const Bounds& bounds, RTCBVH bvh) {
     std::vector<RTCBuildPrimitive> primitives = toPrimitives(context.fragments, bounds);
     RTCBuildArguments arguments = rtcDefaultBuildArguments();
-    arguments.buildQuality = RTC_BUILD_QUALITY_MEDIUM; // its best without splits, which presplit() has made
+    // Embree's best without splits, which presplit() has made.
+    arguments.buildQuality = RTC_BUILD_QUALITY_MEDIUM;
     arguments.maxBranchingFactor = 2;
     arguments.maxDepth = kMaxBinaryDepth;
     arguments.maxLeafSize = 1;

@@ -30,10 +30,9 @@ struct ComparedImage {
 // variances, else relMSE of kDefaultRelMse. Layers besides the colour are asked for the same, but for FLIP;
 // those without variances for relMSE in place of the Z-test.
 struct Criteria {
-    std::optional<double> relMse; // at most
-    std::optional<double> flip;   // mean FLIP, at most
-    std::optional<double>
-        significance; // of the Z-test: how often it may take equal renders for different ones
+    std::optional<double> relMse;       // at most
+    std::optional<double> flip;         // mean FLIP, at most
+    std::optional<double> significance; // how often the Z-test may take equal renders for different ones
 };
 
 inline constexpr const char* kChannelNames = "RGB";
@@ -95,7 +94,7 @@ struct Comparison {
     FlipMap flip;
     std::optional<ZTests> zTests; // absent if neither image has variances
     std::vector<LayerComparison> layers;
-    std::vector<Verdict> verdicts; // of the colour, then of each layer
+    std::vector<Verdict> verdicts; // verdict on the colour, then on each layer
 
     [[nodiscard]] bool isEqual() const; // whether all verdicts are
 };

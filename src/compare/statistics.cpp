@@ -15,7 +15,7 @@ namespace lavalight {
 namespace {
 
 constexpr double kRelMseFloor = 0.01;   // radiance squared, by definition
-constexpr double kTrimmedShare = 0.001; // of the pixels, by definition
+constexpr double kTrimmedShare = 0.001; // share of the pixels, by definition
 
 void requireSameSize(const Image& a, const Image& b) {
     if (a.width != b.width || a.height != b.height)

@@ -29,7 +29,7 @@ class GpuScene {
 
     // What it has: kFeature...
     [[nodiscard]] SceneFeatures features() const { return features_; }
-    // Of what was uploaded.
+    // Fingerprints of what was uploaded.
     [[nodiscard]] const Fingerprints& fingerprints() const { return fingerprints_; }
     [[nodiscard]] const Accelerator& accelerator() const { return accelerator_; }
     [[nodiscard]] uint64_t bytes() const;

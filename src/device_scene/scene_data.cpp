@@ -135,7 +135,7 @@ void packSurfaceDetail(const Scene& scene, SceneData& data) {
         data.tangents = packTangents(scene);
 }
 
-// Of each cell its scale, and the texel at its lower right corner: the last row is there twice.
+// Each cell's scale, and the texel at its lower right corner: the last row is there twice.
 std::vector<glm::vec4> packEnvironmentMap(const Image& map, std::span<const float> scales) {
     std::vector<glm::vec4> packed;
     packed.reserve(scales.size());
@@ -146,8 +146,8 @@ std::vector<glm::vec4> packEnvironmentMap(const Image& map, std::span<const floa
 
 // Linux kills a process that takes what it was granted and there is not.
 void requireMemoryForTriangles(const Scene& scene) {
-    // Of a triangle, with its BVH's workspace, at the peak: measured 500 (7.66 million triangles of
-    // TeapotsGalore) and 570 (dense-3000000).
+    // Bytes that a triangle takes with its BVH's workspace, at the peak: measured 500 (7.66 million triangles
+    // of TeapotsGalore) and 570 (dense-3000000).
     constexpr uint64_t kBytesPerTriangle = 512;
     const uint64_t triangles = scene.triangleCount();
     if (const std::string shortage = memoryShortage(kBytesPerTriangle * triangles); !shortage.empty())

@@ -20,7 +20,7 @@ struct SceneData {
     std::vector<TriangleRecord> triangles; // in the scene's numbering
     std::vector<TriangleNormals> normals;
     std::vector<MaterialRecord> materials;
-    std::vector<LightRecord> lights; // of emissive triangles: numbers of these, not of records
+    std::vector<LightRecord> lights; // lights number emissive triangles, not records
     std::vector<PunctualRecord> punctuals;
     std::vector<LightTreeRecord> lightTree;
     // Empty where the scene has no such feature:

@@ -16,7 +16,7 @@ struct FilmFile {
     RawFilm film;
     SampleRanges ranges; // samples that it is to hold, or holds
     FilmProgress progress;
-    Metadata metadata; // of exrMetadata(), and kSettingsLedger
+    Metadata metadata; // entries of exrMetadata(), and kSettingsLedger
 
     [[nodiscard]] bool isComplete() const { return progress == FilmProgress{countOf(ranges), 0, 0}; }
 };

@@ -19,7 +19,7 @@ constexpr std::string_view kNoValue = "none";
 // Options that choose samples, or say when to stop.
 constexpr std::array<std::string_view, 5> kFreeOptions{"spp", "first-sample", "time", "target-error",
                                                        "wave-size"};
-// Those that say where something comes from: its content is what counts.
+// Options that say where something comes from: its content is what counts.
 constexpr std::array<std::string_view, 12> kSources{"env",     "look-from", "look-at",   "up",
                                                     "fov",     "aperture",  "focus",     "panorama",
                                                     "shaders", "at",        "animation", "variant"};

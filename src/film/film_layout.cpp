@@ -17,7 +17,7 @@ namespace {
 constexpr std::string_view kBetweenPlanes = "; ";
 constexpr std::string_view kAfterName = ": ";
 constexpr size_t kMostComponents = 3;
-constexpr size_t kMostPlanes = 32; // of which bits are asked
+constexpr size_t kMostPlanes = 32; // a film's planes are asked for by the bits of one word
 
 std::vector<std::string_view> split(std::string_view text, std::string_view separator) {
     std::vector<std::string_view> parts;

@@ -49,7 +49,7 @@ class FilmLayout {
 
   private:
     std::vector<LayerPlane> planes_;
-    std::vector<uint32_t> firstWords_; // of the planes, and of what comes behind them
+    std::vector<uint32_t> firstWords_; // where each plane begins, then the word of sample counts
 };
 
 // Rows of FILM_PLANES: bit i for row i. The colour must be among them.

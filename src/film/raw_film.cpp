@@ -22,7 +22,7 @@ class PixelSums {
 
     [[nodiscard]] size_t pixels() const { return pixels_; }
     [[nodiscard]] uint32_t count(size_t pixel) const { return words_[countWord_ * pixels_ + pixel]; }
-    // Of the component whose words begin with `firstWord`.
+    // The estimate of the component whose words begin with `firstWord`.
     [[nodiscard]] PixelEstimate component(size_t pixel, uint32_t firstWord, const FilmPlane& shape) const {
         const double sum = shape.isSigned != 0
                                ? fromSigned(number<kSignedSumWords>(pixel, firstWord), kSumLowestExponent)
@@ -108,7 +108,7 @@ void add(RawFilm& sum, const RawFilm& more) {
     for (size_t i = 0; i < kTallyCount; ++i)
         sum.tallies[i] += more.tallies[i];
     sum.tallies[kTallyOverlapPair] = pair;    // the kernels keep the greatest
-    sum.tallies[kTallySaturated] = saturated; // the same sums may be saturated in both
+    sum.tallies[kTallySaturated] = saturated; // the two films may share saturated sums
 }
 
 Rendering emptyRendering(const FilmLayout& layout, uint32_t width, uint32_t height) {

@@ -23,7 +23,7 @@ struct FilmTallies {
     std::array<uint32_t, 2>
         overlapping{};            // meshes of two such solids, counted from 1; 65535: there or beyond
     uint64_t negativeSamples = 0; // below 0 in a plane without sign, where they counted as 0
-    uint64_t limitedValues = 0;   // of planes with sign, limited to the film's range
+    uint64_t limitedValues = 0;   // values limited to the film's range in planes with sign
 };
 
 // Counts as the kernels keep them, by kTally...
@@ -49,9 +49,9 @@ struct RawFilm {
 
 // How far the samples of a film have come. Passes take some samples of all pixels, row by row.
 struct FilmProgress {
-    uint32_t samples = 0;     // of every pixel, by the passes before
-    uint32_t passSamples = 0; // of the pass under way; 0: none is
-    uint32_t passPixels = 0;  // that have them
+    uint32_t samples = 0;     // samples of every pixel by the passes before
+    uint32_t passSamples = 0; // samples a pixel in the pass under way; 0: none is
+    uint32_t passPixels = 0;  // pixels that have the pass's samples
     bool operator==(const FilmProgress&) const = default;
 };
 

@@ -51,8 +51,8 @@ struct DeviceDescription {
 struct DeviceLimits {
     uint64_t maxStorageBufferBytes = 0;
     uint64_t maxTexelBufferElements = 0;
-    uint32_t maxStorageBuffers = 0; // of one kernel
-    uint32_t maxTexelBuffers = 0;   // of one kernel
+    uint32_t maxStorageBuffers = 0; // storage buffers of one kernel
+    uint32_t maxTexelBuffers = 0;   // texel buffers of one kernel
     uint32_t maxGroups = 0;         // workgroups of one dispatch, x
     uint32_t subgroupSize = 0;
     uint64_t memoryBytes = 0;          // the largest device-local heap
@@ -146,7 +146,7 @@ class Device {
     DeviceLimits limits_;
     uint64_t allocatedBytes_ = 0;
     uint64_t peakAllocatedBytes_ = 0;
-    std::array<uint64_t, VK_MAX_MEMORY_HEAPS> heapBytes_{}; // of the buffers alive now
+    std::array<uint64_t, VK_MAX_MEMORY_HEAPS> heapBytes_{}; // bytes of the buffers alive now, by heap
     bool stagesBuffers_;
     bool storesTexels_ = false;
     bool runsAhead_ = false;

@@ -17,7 +17,7 @@ uint64_t largestDeviceHeap(const vk::PhysicalDeviceMemoryProperties& memory) {
     return bytes;
 }
 
-// Best first.
+// Properties of memory that serves, best first.
 std::vector<vk::MemoryPropertyFlags> wishes(BufferUse use) {
     if (use == BufferUse::readback)
         return {kMappable | Memory::eHostCached, kMappable};

@@ -17,19 +17,20 @@ enum class BufferUse {
 };
 
 struct MemoryPlan {
-    uint32_t type = 0;         // of vkAllocateMemory
-    uint32_t heap = 0;         // that the type belongs to
+    uint32_t type = 0;         // index for vkAllocateMemory
+    uint32_t heap = 0;         // heap that the type belongs to
     bool isMapped = false;     // the host writes to it; otherwise through a staging buffer
     bool isReadMapped = false; // the host reads it where it lies; otherwise through a staging buffer
     bool operator==(const MemoryPlan&) const = default;
 };
 
-// What is asked for.
+// A buffer to be made.
 struct MemoryWish {
     BufferUse use = BufferUse::storage;
     uint64_t bytes = 0;
-    uint32_t typeBits = ~0u;   // of VkMemoryRequirements
-    bool mustBeStaged = false; // as on a card whose memory the host cannot map; not for readback
+    uint32_t typeBits = ~0u; // types that VkMemoryRequirements allows
+    // Goes through staging, as on a card whose memory the host cannot map; not for readback.
+    bool mustBeStaged = false;
 };
 
 // Memory types that serve, best first: a heap that is full by `used` (bytes of each heap, in use by us) comes

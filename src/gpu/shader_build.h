@@ -47,7 +47,7 @@ using ShaderFiles = std::function<std::optional<ShaderText>(const std::string& p
 // Which file an included path stands for, where that is not the path itself.
 using ResolveInclude = std::function<std::string(const std::string& path)>;
 
-// The same for files of a folder: the entry point, and the root of all that it includes.
+// Compiles a file of a folder: the entry point, and the root of all that it includes.
 [[nodiscard]] KernelCode compileKernel(const std::filesystem::path& file,
                                        const std::filesystem::path& includeRoot,
                                        const ResolveInclude& resolve = {});

@@ -16,9 +16,9 @@ namespace {
 // A module is a header of five words and instructions, each of which starts with a word of its length (upper
 // half) and its operation. Types come before functions, and what decorates them before types.
 constexpr size_t kHeaderWords = 5;
-constexpr size_t kBoundWord = 3; // above all ids
+constexpr size_t kBoundWord = 3; // this word is above all ids
 
-// What is used of the SPIR-V specification, version 1.5, sections 3.7 to 3.32.
+// Numbers from the SPIR-V specification, version 1.5, sections 3.7 to 3.32.
 namespace spv {
 enum Op : uint32_t {
     OpTypeVoid = 19,
@@ -67,7 +67,7 @@ bool isType(spv::Op op) {
 
 // Whether a fetch has no operand that changes its result: uvec4 texels of 32 bits need no extension.
 bool isPlain(Instruction fetch) {
-    constexpr size_t kWords = 5; // without operands
+    constexpr size_t kWords = 5; // words of a fetch without operands
     return fetch.size() == kWords ||
            (fetch.size() == kWords + 1 && fetch[kWords] == spv::ImageOperandsZeroExtend);
 }
@@ -136,7 +136,7 @@ class Rewriter {
         }
     }
 
-    // struct { uvec4 texels[]; } without padding, read only.
+    // Type of struct { uvec4 texels[]; } without padding, read only.
     void decorate(Words& words) const {
         append(words, spv::OpDecorate, {array_, spv::DecorationArrayStride, 16});
         append(words, spv::OpDecorate, {block_, spv::DecorationBlock});
@@ -196,7 +196,7 @@ class Rewriter {
              zero_ = next_++;
     std::set<uint32_t> images_, pointers_;
     std::vector<uint32_t> variables_;
-    std::map<uint32_t, uint32_t> loaded_; // value of an image: its variable
+    std::map<uint32_t, uint32_t> loaded_; // id of a loaded image: id of its variable
 };
 
 } // namespace

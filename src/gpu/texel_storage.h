@@ -5,9 +5,9 @@
 
 namespace lavalight::gpu {
 
-// The same kernel with each `uniform utextureBuffer` made a `readonly buffer { uvec4 texels[]; }` of the same
-// name and binding, and each texelFetch from it an element of that. A change of the SPIR-V and not of the
-// source: the embedded kernels serve as they are, inlined, without a second set of them in the program or a
+// Makes each `uniform utextureBuffer` of a kernel a `readonly buffer { uvec4 texels[]; }` of the same name
+// and binding, and each texelFetch from it an element of that. This changes the SPIR-V and not the source:
+// the embedded kernels serve as they are, inlined, without a second set of them in the program or a
 // compilation at its start, and so do those of users and tests. Throws Error for a kernel that does anything
 // else with a texel buffer.
 [[nodiscard]] KernelCode withTexelsInStorage(KernelCode code);

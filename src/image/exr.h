@@ -49,7 +49,7 @@ struct ExrFile : Rendering {
 // such file: missing, damaged, incomplete, larger than kMaxImageSide a side or than memory, without colour.
 [[nodiscard]] ExrFile readExr(const std::filesystem::path& path);
 
-// Its radiance alone. Throws Error for more than `mostPixels` as well.
+// Reads the radiance alone. Throws Error for more than `mostPixels` as well.
 [[nodiscard]] Image readExrRadiance(const std::filesystem::path& path, uint64_t mostPixels);
 
 struct UintImage {

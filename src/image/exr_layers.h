@@ -12,12 +12,12 @@ namespace lavalight {
 
 struct ExrChannel {
     std::string name;
-    bool isFloat = true;      // of 16 or 32 bits, rather than an integer
+    bool isFloat = true;      // a number of 16 or 32 bits, rather than an integer
     bool hasAllPixels = true; // rather than every other
 };
 
 inline constexpr const char* kLuminance = "Y";
-inline constexpr size_t kMostComponents = 3; // of a layer
+inline constexpr size_t kMostComponents = 3; // components of a layer, at most
 
 // The channels that hold the variance of others.
 [[nodiscard]] std::vector<std::string> varianceChannels(const std::vector<std::string>& channels);

@@ -115,7 +115,7 @@ Picture decodePng(std::string_view bytes) {
 // stb reads more formats, which glTF does not have and nobody has tested.
 void requireKnown(std::string_view bytes) {
     if (!isWebp(bytes) && !isPng(bytes) && !isJpeg(bytes))
-        throw Error("it is no PNG, JPEG or WebP file");
+        throw Error("it is not a PNG, JPEG or WebP file");
 }
 
 } // namespace

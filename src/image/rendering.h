@@ -21,7 +21,8 @@ struct Layer {
     std::string name;
     std::vector<std::string> channels; // one to three: what EXR files call the components
     Image mean;                        // components without a channel are 0
-    std::optional<Image> variance;     // of the mean, per channel; 0 where fewer than two samples were taken
+    // Variance of the mean, per channel; 0 where fewer than two samples were taken.
+    std::optional<Image> variance;
 };
 
 // The layer of radiance.
@@ -36,7 +37,7 @@ inline constexpr const char* kColorLayer = "color";
 }
 
 struct Rendering {
-    std::vector<Layer> layers;          // of one size and with different names; the first is radiance
+    std::vector<Layer> layers;          // layers of one size and with different names; the first is radiance
     std::vector<uint32_t> sampleCounts; // row by row from the top; empty: not known
 
     Rendering() = default;

@@ -113,7 +113,7 @@ std::vector<Ray> makeBounceRays(std::span<const SurfacePoint> points, uint32_t s
 
 std::vector<ShadowRay> makeShadowRays(std::span<const SurfacePoint> points, const Scene& scene,
                                       std::span<const Triangle> triangles, uint32_t seed) {
-    constexpr float kShare = 0.999f; // of the way to the light
+    constexpr float kShare = 0.999f; // share of the way to the light
     const Emitters emitters = findEmitters(scene);
     const std::vector<AliasEntry> table = tableByPower(emitters);
     Random random(seed);

@@ -13,7 +13,7 @@
 
 namespace lavalight {
 
-// That starts on no surface.
+// A ray that starts on no surface.
 [[nodiscard]] inline Ray freeRay(const glm::vec3& origin, const glm::vec3& direction) {
     return {origin, kNoSurface, direction, 0.0f, 0, {}};
 }

@@ -59,7 +59,7 @@ std::vector<std::string> embeddedShaderPaths() {
 
 ShaderOverlay::ShaderOverlay(const fs::path& folder) {
     if (!fs::is_directory(folder))
-        throw Error(fmt::format("--shaders: {} is no folder", folder.string()));
+        throw Error(fmt::format("--shaders: {} is not a directory", folder.string()));
     for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
         if (!entry.is_regular_file() || !isShaderFile(entry.path()))
             continue;

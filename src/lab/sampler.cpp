@@ -25,7 +25,7 @@ constexpr std::array<Sampler, 2> kSamplers{Sampler::independent, Sampler::sobol}
 // Errors of estimates with more and more samples, for each of kSamplers.
 struct Convergence {
     std::vector<double> samples;
-    std::array<std::vector<double>, 2> means;  // of all estimates
+    std::array<std::vector<double>, 2> means;  // means of all estimates
     std::array<std::vector<double>, 2> errors; // RMSE
 };
 
@@ -86,7 +86,7 @@ Table convergenceTable(std::string name, std::string title, const Convergence& c
     return table;
 }
 
-// Of the line through the logarithms, for each sampler.
+// Slope of the line through the logarithms, for each sampler.
 std::vector<Cell> slopes(const std::string& name, const Convergence& c) {
     return {name, logLogSlope(c.samples, c.errors[0]), logLogSlope(c.samples, c.errors[1])};
 }

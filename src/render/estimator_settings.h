@@ -36,9 +36,9 @@ struct EstimatorSettings {
     Mis mis = Mis::power; // off, with NEE on: emission found by BSDF rays counts at camera and delta vertices
     Roulette roulette = Roulette::sqrtThroughput;
     uint32_t rouletteStart = 3;       // first vertex where a path may die; the camera's first hit is vertex 1
-    float rouletteProbability = 0.5f; // of survival, for Roulette::constant
+    float rouletteProbability = 0.5f; // probability of survival, for Roulette::constant
     bool misSurvival = false; // the BSDF pdf of MIS weights is multiplied by the probability of survival
-    Fresnel fresnel = Fresnel::exact; // of glass; opaque layers use Schlick's as glTF prescribes
+    Fresnel fresnel = Fresnel::exact; // reflectance of glass; opaque layers use Schlick's as glTF prescribes
     bool multipleScattering = false;  // rough metal returns what its facets send on to each other
     TextureFilter textureFilter =
         TextureFilter::bilinear; // stochastic: one texel of four, shaded and then averaged

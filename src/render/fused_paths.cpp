@@ -17,7 +17,7 @@ uint32_t slotsPerLane(uint32_t slots) {
     return std::clamp(slots / kFewestLanes, 1u, kMostSlotsPerLane);
 }
 
-// Of a wave of any size up to `slots`, in whole workgroups.
+// Most lanes that a wave of any size up to `slots` has, in whole workgroups.
 uint32_t mostLanes(uint32_t slots) {
     const uint32_t lanes = std::max(std::min(slots, 2 * kFewestLanes), slots / kMostSlotsPerLane + 1);
     return groupsFor(lanes) * kWorkgroupSize;
@@ -57,7 +57,7 @@ FusedPaths::FusedPaths(gpu::Device& device, const WaveInputs& inputs)
     for (const FilmBand& band : inputs.film.bands())
         bands_.emplace_back(device, inputs, band, state_.table());
     commands_.begin();
-    commands_.fill(state_.lanes, 0); // of no wave
+    commands_.fill(state_.lanes, 0); // no lane belongs to a wave yet
     commands_.submitAndWait();
 }
 

@@ -32,7 +32,8 @@ constexpr uint32_t kSamplesTogether = 16;
 // 65536 samples in one wave).
 constexpr uint32_t kMostSamplesTogether = 4096; // divided by the film's planes
 
-// Of `remaining` ones: more than kSamplesTogether only where the wave would not be full.
+// Samples a pixel takes in a wave where `remaining` are left: more than kSamplesTogether only where the wave
+// would not be full.
 uint32_t samplesPerWave(uint32_t remaining, uint32_t waveSize, const Film& film) {
     const uint32_t bandPixels =
         film.bands().front().rows * film.width(); // no band has more rows than the first
@@ -106,7 +107,7 @@ void setLights(FrameParameters& frame, const Lights& lights) {
 
 namespace {
 
-// What setLights() sets.
+// The parameters that setLights() sets.
 void copyLights(const FrameParameters& from, FrameParameters& to) {
     to.environment = from.environment;
     to.environmentLight = from.environmentLight;
@@ -149,14 +150,14 @@ struct Renderer::Setup {
     }
 };
 
-// What takes the place of what is there, built beside it.
+// The parts that restart() makes, built beside those that they replace.
 struct Renderer::Fresh {
     RenderSettings settings;
     FrameParameters frame;
-    std::optional<EstimatorKernels> kernels{}; // none: those there serve, but for:
+    std::optional<EstimatorKernels> kernels{}; // none: the present ones serve, but for `changed`
     KernelMap changed{};
-    std::optional<AlbedoTable> albedoTable{}; // none: the one there serves
-    std::optional<Film> film{};               // none: the one there serves, emptied
+    std::optional<AlbedoTable> albedoTable{}; // none: the present one serves
+    std::optional<Film> film{};               // none: the present one serves, emptied
 };
 
 Renderer::Renderer(gpu::Device& device, const Scene& scene, const Camera& camera,
@@ -240,7 +241,7 @@ void Renderer::restart(const Scene& scene, const Camera& camera, const RenderSet
     startAnew(std::move(fresh));
 }
 
-// Bound to what is fresh, and to what there is where nothing is.
+// Waves bound to the fresh parts, and to the present ones where nothing is fresh.
 std::unique_ptr<WaveRenderer> Renderer::makeWaves(const Fresh& fresh) const {
     const Schedule schedule = fresh.settings.work.schedule;
     const std::vector<std::string_view> names = estimatorKernelNames(schedule);
@@ -274,7 +275,7 @@ void Renderer::startAnew(Fresh fresh) {
     position_ = {};
 }
 
-// What fails here may have emptied it, or not.
+// A failure here leaves the film emptied, or not.
 void Renderer::emptyFilm() {
     filmIsEmptied_ = false;
     position_ = {};
@@ -290,7 +291,8 @@ StopReason Renderer::render(const KeepGoing& keepGoing) {
     const Clock::time_point start = Clock::now();
     WaveBudget budget(settings_.work.waveSize, device_->description().isCpu);
     for (;;) {
-        // Asked before a pass rather than after it: a render that is continued there has to ask as well.
+        // The error is asked for before a pass rather than after it: a render that is continued there has to
+        // ask as well.
         const bool isPassOver = position_.passSamples == 0;
         if (settings_.stop.targetError > 0.0 && isPassOver && position_.samplesDone > 1 &&
             errorEstimate(rendering()) <= settings_.stop.targetError)
@@ -321,7 +323,8 @@ void Renderer::continueFrom(const FilmProgress& progress, const RawFilm& film) {
     position_ = {};
     film_.restore(film);
     filmIsEmptied_ = true;
-    const uint32_t bandPixels = film_.bands().front().rows * film_.width(); // of all bands but the last
+    // Pixels of each band but the last.
+    const uint32_t bandPixels = film_.bands().front().rows * film_.width();
     position_ = {progress.samples, progress.passSamples, progress.passPixels / bandPixels,
                  progress.passPixels % bandPixels};
 }

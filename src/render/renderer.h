@@ -23,10 +23,10 @@ namespace lavalight {
 
 // The next wave of a render. Passes take samples of all pixels, waves go through them band by band.
 struct RenderPosition {
-    uint32_t samplesDone = 0; // of every pixel, by the passes before
-    uint32_t passSamples = 0; // of this pass; 0: it is yet to start
+    uint32_t samplesDone = 0; // samples of every pixel by the passes before
+    uint32_t passSamples = 0; // samples a pixel in this pass; 0: it is yet to start
     size_t band = 0;
-    uint32_t pixel = 0; // of the band
+    uint32_t pixel = 0; // next pixel of the band
 };
 
 class Renderer {
@@ -36,8 +36,8 @@ class Renderer {
     // exceeded. The default kernels are those that the build embedded.
     Renderer(gpu::Device& device, const Scene& scene, const Camera& camera, const RenderSettings& settings,
              const KernelSource& source = embeddedKernel);
-    // The same with the kernels of an earlier renderer of that device, if they serve; else with new ones.
-    // Both have one source.
+    // Takes over the kernels of an earlier renderer of that device, if they serve; else builds new ones. Both
+    // renderers have one source.
     Renderer(gpu::Device& device, const Scene& scene, const Camera& camera, const RenderSettings& settings,
              EstimatorKernels earlier, const KernelSource& source = embeddedKernel);
     Renderer(const Renderer&) = delete; // the wavefront refers to the scene and the film
@@ -50,13 +50,13 @@ class Renderer {
     // each pixel knows how many samples it has.
     StopReason render(const KeepGoing& keepGoing);
 
-    // The same in steps: takes the samples of one wave, of at most `mostSlots` paths but at least one
+    // Takes one step of render(): the samples of one wave, of at most `mostSlots` paths but at least one
     // pixel's.
     void step(uint32_t mostSlots);
     // Whether all samples are taken.
     [[nodiscard]] bool isDone() const { return position_.samplesDone >= settings_.stop.samples; }
     [[nodiscard]] const RenderPosition& position() const { return position_; }
-    // The same, whatever the bands, and back with the film that belongs to it: what follows has the bits that
+    // The position whatever the bands, and the way back to it with its film: what follows has the bits that
     // it would have had. Its pass must not take more samples at once than there are slots.
     [[nodiscard]] FilmProgress progress() const;
     void continueFrom(const FilmProgress& progress, const RawFilm& film);
@@ -71,7 +71,7 @@ class Renderer {
     // Names of the kernels whose code is another by `source`. Throws Error where one does not compile. May be
     // asked while it renders.
     [[nodiscard]] std::vector<std::string> changedKernels(const KernelSource& source) const;
-    // Goes on with those kernels, and an empty film. Throws Error as restart() does.
+    // Goes on with the kernels of changedKernels(), and an empty film. Throws Error as restart() does.
     void reloadKernels(const KernelSource& source);
 
     // Waits for the waves that are under way, as waves() does: where a device gains from it, a wave is
@@ -94,7 +94,7 @@ class Renderer {
         waves_->finish();
         return std::move(kernels_).handOn();
     }
-    // With everything resolved that was left to the device.
+    // The settings, with everything resolved that was left to the device.
     [[nodiscard]] const RenderSettings& settings() const { return settings_; }
 
   private:
@@ -122,7 +122,7 @@ class Renderer {
     Film film_;
     std::unique_ptr<WaveRenderer> waves_;
     RenderPosition position_;
-    bool filmIsEmptied_ = true; // false: that failed, and has to be done before the first sample
+    bool filmIsEmptied_ = true; // false: emptying it failed, and has to be done before the first sample
 };
 
 // What --target-error is compared with: mean(Var / (mean^2 + 0.01)) over pixels and channels, Var being the

@@ -20,16 +20,17 @@ namespace lavalight {
 struct NamedValues {
     std::span<const SettingName<uint32_t>> names; // the default first
     uint32_t (*get)(const EstimatorSettings& settings);
-    void (*set)(EstimatorSettings& settings, uint32_t value); // one that has a name
-    std::optional<uint32_t> constant; // of shaders/shared/frame.h: kernels are specialised by the value
-    bool isSwitch;                    // on or off, which is 1 or 0
+    void (*set)(EstimatorSettings& settings, uint32_t value); // `value` is one that has a name
+    // Constant in shaders/shared/frame.h: kernels are specialised by the value.
+    std::optional<uint32_t> constant;
+    bool isSwitch; // on or off, which is 1 or 0
 };
 
 struct WholeNumber {
     uint32_t EstimatorSettings::*member;
     uint32_t least;
     uint32_t most;
-    uint32_t mostShown; // by the panel, whose mouse is no keyboard
+    uint32_t mostShown; // largest value in the panel, whose mouse is not a keyboard
 };
 
 // A number above 0.
@@ -40,13 +41,13 @@ struct PositiveNumber {
     float leastShown;
     float mostShown;
     std::string_view infinite{}; // the name of infinity; empty: it has none
-    float firstFinite = 1.0f;    // which the panel starts from when infinity is left
+    float firstFinite = 1.0f;    // value that the panel starts from when infinity is left
 };
 
 struct SettingRow {
-    std::string_view name; // of the option, without dashes
+    std::string_view name; // the option's name, without dashes
     std::variant<NamedValues, WholeNumber, PositiveNumber> values;
-    bool decidesBits;            // of the image: a film with another value is of another image
+    bool decidesBits; // whether the image's bits depend on it: a film with another value is of another image
     bool mayChangeMean;          // if not, all values have one mean, which the tests hold
     std::string_view help;       // one sentence: what the setting does
     std::string_view panelLabel; // the setting's name in the panel

@@ -30,7 +30,7 @@ void checkSettings(const RenderSettings& settings) {
     requireRange("--target-error", settings.stop.targetError, 0, 1e9);
     if (!std::isfinite(settings.lighting.rotation))
         throw UsageError(
-            fmt::format("--env-rotation: {} is no angle in degrees", settings.lighting.rotation));
+            fmt::format("--env-rotation: {} is not an angle in degrees", settings.lighting.rotation));
     requireRange("--env-intensity", settings.lighting.intensity, 0, 1e30);
     for (const SettingRow& row : settingRows())
         requireRange(row, settings.estimator);

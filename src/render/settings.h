@@ -28,7 +28,7 @@ enum class Schedule {
 struct ImageSettings {
     uint32_t width = 0; // pixels; 0: by the camera's aspect ratio from the height
     uint32_t height = 512;
-    uint32_t firstSample = 0; // those before it are left to other renders
+    uint32_t firstSample = 0; // samples before it are left to other renders
     bool operator==(const ImageSettings&) const = default;
 };
 
@@ -53,7 +53,7 @@ struct WorkSettings {
 struct LightingSettings {
     std::optional<glm::vec3> constant; // radiance that replaces the scene's environment
     std::string mapFile;               // where Scene::environmentMap came from; empty: nowhere
-    float rotation = 0.0f;             // of the map about +Y, degrees, counter-clockwise seen from above
+    float rotation = 0.0f;             // turn of the map about +Y, degrees, counter-clockwise seen from above
     float intensity = 1.0f;            // multiplies the environment, whatever it is
     bool operator==(const LightingSettings&) const = default;
 };

@@ -55,10 +55,10 @@ class WaveRenderer {
 // renderer; `frame` says what scene, camera and settings decide (the size of a band is filled in).
 struct WaveInputs {
     const GpuScene& scene;
-    const gpu::Buffer& albedoTable; // which may be another than the scene's
+    const gpu::Buffer& albedoTable; // the scene's or another
     const Film& film;
     const FrameParameters& frame;
-    std::span<const std::string_view> kernelNames; // of the schedule: estimatorKernelNames()
+    std::span<const std::string_view> kernelNames; // kernels of the schedule: estimatorKernelNames()
     std::function<const gpu::Kernel&(std::string_view name)> kernel;
 };
 

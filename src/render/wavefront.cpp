@@ -67,7 +67,7 @@ void Wavefront::renderWave(size_t bandIndex, WaveRange range) {
     gpu::Commands* commands = &startRecording();
     turn_ = (turn_ + 1) % turns_.size();
     Turn& turn = turns_[turn_];
-    countRays(turn); // of the wave before the one before, which is done
+    countRays(turn); // rays of the wave before the one before, which is done
     const BoundBand& band = bands_[turn_][bandIndex];
     commands->fill(turn.counters, 0);
     commands->dispatch(band["generate"], groupsFor(range.pixelCount * range.sampleCount), pushed(range));

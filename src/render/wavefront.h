@@ -40,10 +40,10 @@ class Wavefront : public WaveRenderer {
     bool runsAhead_;
     State state_;
     std::vector<Turn> turns_;                   // two
-    std::vector<std::vector<BoundBand>> bands_; // of each turn
+    std::vector<std::vector<BoundBand>> bands_; // bands of each turn
     std::vector<gpu::Commands> commands_;       // two, in turn; they end, waiting, before what they use does
-    size_t turn_ = 0;                           // of the newest wave
-    size_t recording_ = 0;                      // of commands_: the newest
+    size_t turn_ = 0;                           // turn of the newest wave
+    size_t recording_ = 0;                      // index in commands_ of the newest
 };
 
 } // namespace lavalight

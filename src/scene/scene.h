@@ -48,7 +48,7 @@ struct Texture {
     Wrap wrapU = Wrap::repeat;
     Wrap wrapV = Wrap::repeat;
     bool isNearest = false; // else bilinear
-    bool isSrgb = false;    // its colour channels; else linear
+    bool isSrgb = false;    // colour channels hold sRGB; else linear values
 };
 
 enum class AlphaMode { opaque, mask, blend };
@@ -72,12 +72,12 @@ struct Material {
     bool doubleSided = false;
 
     AlphaMode alphaMode = AlphaMode::opaque;
-    float alpha = 1.0f; // of the base colour
+    float alpha = 1.0f; // alpha of the base colour
     float alphaCutoff = 0.5f;
     bool isUnlit = false;      // sends its base colour to any ray, scatters nothing, is no light
     bool isGlossiness = false; // TextureSlot::specularColor says how
 
-    glm::vec3 attenuationColor{1.0f}; // of a solid, after attenuationDistance
+    glm::vec3 attenuationColor{1.0f}; // colour that white light has in a solid after attenuationDistance
     float attenuationDistance = kNoAttenuation;
     float dispersion = 0.0f; // 20 / Abbe number
     float clearcoat = 0.0f;
@@ -93,7 +93,7 @@ struct Material {
     float diffuseTransmission = 0.0f;
     glm::vec3 diffuseTransmissionColor{1.0f};
 
-    float normalScale = 1.0f; // of TextureSlot::normal
+    float normalScale = 1.0f; // scale of TextureSlot::normal
     float clearcoatNormalScale = 1.0f;
     std::array<std::optional<Texture>, kTextureSlots> textures{}; // by TextureSlot
     [[nodiscard]] const std::optional<Texture>& texture(TextureSlot slot) const {
@@ -138,7 +138,7 @@ struct Camera {
 struct EnvironmentMap {
     std::string source;     // file
     Image image;            // finite, not negative
-    uint64_t badTexels = 0; // that were not, and had to be changed
+    uint64_t badTexels = 0; // texels that were infinite, NaN or negative, and had to be changed
 };
 
 enum class PunctualKind { point, spot, directional };
@@ -192,7 +192,7 @@ struct Scene {
     std::vector<std::string> warnings;          // what was not understood, one line each, with names
     std::vector<std::string> ignoredExtensions; // exact names; they enter the bias ledger
     std::vector<std::string> extensionsUsed;    // exact names as the file lists them
-    std::vector<std::string> variants;          // of the materials, by name
+    std::vector<std::string> variants;          // names of the material variants
 
     [[nodiscard]] uint64_t triangleCount() const {
         uint64_t count = 0;

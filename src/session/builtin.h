@@ -9,8 +9,8 @@
 
 namespace lavalight {
 
-// What loadScene knows without a file, for help and messages; "dense-N" stands for any number of triangles,
-// "lamps-N" of lights.
+// Names of the scenes that loadScene has without a file, for help and messages; "dense-N" stands for any
+// number of triangles, "lamps-N" of lights.
 [[nodiscard]] std::vector<std::string> builtinNames();
 
 // A built-in scene by its name, else the .gltf or .glb file of that path. Throws Error; UsageError

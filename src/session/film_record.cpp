@@ -14,7 +14,7 @@ SampleRanges rangesOf(const RenderSettings& settings) {
     return {{settings.image.firstSample, settings.image.firstSample + settings.stop.samples}};
 }
 
-// What an error estimate is asked at: the ends of passes, which these decide.
+// Options that decide where passes end, where the error is estimated.
 std::vector<std::string> alsoDecisive(const RenderSettings& settings) {
     if (settings.stop.targetError > 0.0)
         return {"target-error", "spp", "wave-size", "band-rows"};

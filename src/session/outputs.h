@@ -8,7 +8,7 @@
 
 namespace lavalight {
 
-// Paths; empty: none.
+// Paths of files; empty: none.
 struct Outputs {
     std::string exr;
     std::string png;
@@ -19,10 +19,10 @@ struct Outputs {
 // Throws UsageError where one file is to hold two outputs, and Error where one cannot be written.
 void requireOutputs(const Outputs& outputs);
 
-// How images are written.
+// How images are written: what goes into the EXR file, and the PNG's tone mapping.
 struct OutputStyle {
     bool keepsFilm = false; // the EXR file holds the exact film beside the picture
-    ToneSettings tone;      // of the PNG
+    ToneSettings tone;      // tone mapping of the PNG
 };
 
 // Writes the image so far, and completes the job's report. `toneMapper` may be null where there is no PNG.

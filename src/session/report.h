@@ -23,7 +23,7 @@ using StageTimes = std::vector<std::pair<std::string, double>>;
 
 struct RenderReport {
     std::string scene;
-    ImportOptions import; // what of the scene was shown
+    ImportOptions import; // which moment and variant of the scene were shown
     std::string camera;
     RenderSettings settings;
     gpu::DeviceDescription device;
@@ -46,9 +46,9 @@ struct RenderReport {
     std::optional<ToneSettings> tone; // tone mapping of the PNG, if there is one
 };
 
-// Fills in what was asked for.
+// Fills in the inputs: what was asked for.
 void fillInputs(RenderReport& report, const Scene& scene, const RenderSettings& settings);
-// Fills in what came of it, with the ledger. `rendering` is the renderer's; the inputs are there already.
+// Fills in the results, with the ledger. `rendering` is the renderer's; the inputs are there already.
 void fillResults(RenderReport& report, const Renderer& renderer, const gpu::Device& device,
                  const Rendering& rendering, const Scene& scene);
 

@@ -18,9 +18,9 @@ namespace lavalight {
 
 // What there is to tell since the last time.
 struct LiveNews {
-    std::array<std::optional<LiveView>, 2> views; // of the request's settings, and of its `other` ones
+    std::array<std::optional<LiveView>, 2> views; // views of the request's settings, and of its `other` ones
     std::optional<PixelInspection> inspection;
-    std::vector<std::string> messages; // of what was saved
+    std::vector<std::string> messages; // news of files that were saved
     // What could not be done: the image from before goes on, unless it was the one that failed. Then there is
     // none until the next show().
     std::vector<std::string> errors;
@@ -76,12 +76,12 @@ class LiveRender {
     gpu::DeviceConfig config_;
     gpu::Device device_;
     std::function<void()> wake_;
-    std::mutex mutex_; // of everything below
+    std::mutex mutex_; // guards everything below
     std::condition_variable orders_;
-    std::optional<LiveRequest> wanted_; // that is not being rendered yet
+    std::optional<LiveRequest> wanted_; // request that is not being rendered yet
     std::vector<Task> tasks_;           // for the image, as soon as it has a sample
     LiveNews news_;
-    std::string failure_; // that ended the thread
+    std::string failure_; // message of the error that ended the thread
     bool isEnding_ = false;
     std::thread thread_; // last: started when all else is there
 };

@@ -111,7 +111,7 @@ void LiveSide::step() {
     statistics_.samples = renderer_->position().samplesDone;
     if (statistics_.samples >= nextErrorAt_ && renderer_->position().passSamples == 0) {
         statistics_.error = errorEstimate(renderer_->rendering());
-        nextErrorAt_ = 2 * statistics_.samples; // its cost is that of reading the whole film
+        nextErrorAt_ = 2 * statistics_.samples; // an estimate costs as much as reading the whole film
     }
 }
 

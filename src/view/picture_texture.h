@@ -24,7 +24,7 @@ class PictureTexture {
     // Part of a window and where it lies, in pixels.
     struct Target {
         vk::Image image;   // in the layout for transfers to it
-        glm::uvec2 window; // that the whole picture fills
+        glm::uvec2 window; // size that the whole picture fills
         glm::uvec2 from;   // the part's left top
         glm::uvec2 to;     // and right bottom
     };

@@ -36,7 +36,7 @@ class SceneLoader {
         std::shared_ptr<const Scene> scene; // null: it failed
         std::string error;
     };
-    // Of an order, once.
+    // Takes the outcome of an order, once.
     [[nodiscard]] std::optional<Outcome> take();
     [[nodiscard]] bool isBusy() const { return thread_.joinable(); }
 
@@ -46,8 +46,8 @@ class SceneLoader {
     Load load_;
     std::function<void()> wake_;
     std::optional<SceneOrder> next_;
-    std::mutex mutex_;               // of:
-    std::optional<Outcome> outcome_; // of the order under way
+    std::mutex mutex_;               // guards outcome_
+    std::optional<Outcome> outcome_; // outcome of the order under way
     std::jthread thread_;            // last: ends before all else goes
 };
 

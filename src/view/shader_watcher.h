@@ -32,9 +32,9 @@ class ShaderWatcher {
 
     struct Change {
         std::vector<std::string> files;
-        std::vector<std::string> kernels;       // whose code is another
+        std::vector<std::string> kernels;       // kernels whose code is another
         std::shared_ptr<ShaderOverlay> overlay; // null: nothing is to be done
-        std::string error;                      // of the newest save; empty: it compiles
+        std::string error;                      // message of the newest save; empty: it compiles
     };
     [[nodiscard]] std::optional<Change> take();
 

@@ -30,7 +30,7 @@ void drawKernels(const LiveStatistics& s) {
     }
 }
 
-// Of all paths, in per cent: how many come to each bounce, and how many end there.
+// Draws how many of all paths come to each bounce, and how many end there, in per cent.
 void drawPaths(const std::vector<uint64_t>& raysPerBounce) {
     if (raysPerBounce.empty() || raysPerBounce.front() == 0) {
         ImGui::TextDisabled("queues: with the schedule wavefront");

@@ -57,7 +57,7 @@ TEST_F(Bench, SeveralThreadsAreNoComparisonAndItSaysSo) {
     const ProgramResult result = bench({}, "2");
     EXPECT_EQ(result.exitCode, 0);
     EXPECT_EQ(result.err,
-              "lavalight: warning: LP_NUM_THREADS is 2: the ratio is no comparison of single threads\n");
+              "lavalight: warning: LP_NUM_THREADS is 2: the ratio does not compare single threads\n");
     for (const char* kind : {"camera", "bounce", "shadow"})
         EXPECT_NE(result.out.find(kind), std::string::npos) << result.out;
 }

@@ -6,9 +6,9 @@
 
 // Children of one node that wait for nearer ones:   | node (24 bits) | a bit for each of its slots |
 //
-// Which of them is next, and whether any still lies before the hit, is for another test of the node's boxes to say. That
-// takes more steps than to keep the distance and the order of those that wait, but shorter ones, of fewer registers: with
-// a distance and a mask in order of octants bounce rays were 0.9 times as fast.
+// Another test of the node's boxes tells which of them is next, and whether any still lies before the hit. That takes
+// more steps than to keep the distance and the order of those that wait, but shorter ones, of fewer registers: with a
+// distance and a mask in order of octants bounce rays were 0.9 times as fast.
 const uint kSlotBits = 8u;
 const uint kAllSlots = 0xffu;
 
@@ -28,8 +28,8 @@ bool anyWaits(uint siblings) {
 // memory lane by lane; with all entries there, bounce rays on 300k triangles were 0.75 times as fast.
 struct Stack {
     uvec4 newest, older;
-    uint size;   // in registers
-    uint blocks; // in memory
+    uint size;   // entries in registers
+    uint blocks; // blocks in memory
 };
 
 const uint kStackRegisters = 8u;

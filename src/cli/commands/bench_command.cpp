@@ -22,13 +22,13 @@
 namespace lavalight {
 namespace {
 
-constexpr const char* kThreadVariable = "LP_NUM_THREADS"; // of lavapipe, read when the device is opened
+constexpr const char* kThreadVariable = "LP_NUM_THREADS"; // lavapipe's, read when the device is opened
 
 // What one kind of rays came to.
 struct Row {
     std::string kind;
     size_t rays = 0;
-    double hitShare = 0.0;  // of the rays, by Embree
+    double hitShare = 0.0;  // share of the rays that hit, by Embree
     double agreement = 0.0; // share of the rays with the same answer from both
     double ours = 0.0;      // Mrays/s, median over the repeats
     double embree = 0.0;
@@ -191,7 +191,7 @@ void printJson(const Scene& scene, const gpu::DeviceDescription& device, const s
 void limitThreads() {
     const char* set = std::getenv(kThreadVariable);
     if (set != nullptr && std::string(set) != "1")
-        spdlog::warn("{} is {}: the ratio is no comparison of single threads", kThreadVariable, set);
+        spdlog::warn("{} is {}: the ratio does not compare single threads", kThreadVariable, set);
     if (set != nullptr)
         return;
     ::setenv(kThreadVariable, "1", 0);

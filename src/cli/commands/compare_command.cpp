@@ -19,7 +19,7 @@ namespace {
 CLI::Validator numberThat(const std::function<bool(double)>& isMeant, const std::string& range) {
     return {[isMeant, range](const std::string& text) -> std::string {
                 const std::optional<double> value = parseNumber<double>(text);
-                return value && isMeant(*value) ? "" : fmt::format("{} is no number {}", text, range);
+                return value && isMeant(*value) ? "" : fmt::format("{} is not a number {}", text, range);
             },
             range};
 }

@@ -20,7 +20,7 @@ enum class Kind {
     stride,        // a multiple of 4 from 4 to 252
     componentType, // 5120 to 5123, 5125 or 5126
     elementType,   // "SCALAR", "VEC3", ...
-    mode,          // of a primitive: 0 to 6
+    mode,          // a primitive's: 0 to 6
 };
 enum class Need { optional, required };
 
@@ -29,7 +29,7 @@ constexpr size_t kAnyLength = static_cast<size_t>(-1);
 
 struct PropertyRule {
     std::string_view name; // "*": every member of the object
-    Kind kind;             // of the value, or of each element where `length` asks for an array
+    Kind kind;             // kind of the value, or of each element where `length` asks for an array
     Need need = Need::optional;
     size_t length = kNoArray;     // elements of the array
     std::string_view target = {}; // the array that an index points into, from the root: "a.b.array"

@@ -50,7 +50,7 @@ class AccessorView {
     [[nodiscard]] glm::vec3 vec3At(size_t i) const;
     [[nodiscard]] glm::vec4 vec4At(size_t i) const;
 
-    [[nodiscard]] glm::mat4 mat4At(size_t i) const; // of floats
+    [[nodiscard]] glm::mat4 mat4At(size_t i) const; // elements are floats
 
     // Element i < count() of a scalar of an unsigned integer type.
     [[nodiscard]] uint32_t unsignedAt(size_t i) const;
@@ -75,9 +75,9 @@ class AccessorView {
     // Elements that are replaced: looked up, for a copy of all would cost each use of a large accessor as
     // much.
     size_t replacedCount_ = 0;
-    ComponentType replacedType_ = ComponentType::uint32; // of their numbers
-    std::string_view replacedNumbers_;                   // packed
-    std::string_view replacedElements_;                  // packedStride_ bytes apart
+    ComponentType replacedType_ = ComponentType::uint32; // type of their indices
+    std::string_view replacedNumbers_;                   // their indices, packed
+    std::string_view replacedElements_;                  // their values, packedStride_ bytes apart
 };
 
 // Throws Error unless all accessors and buffer views of the document are sound, used or not.

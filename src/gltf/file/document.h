@@ -27,7 +27,7 @@ struct GltfDocument {
     std::vector<GltfImage> images;
     std::vector<GltfTexture> textures;
     std::vector<std::string> variants; // names
-    std::optional<size_t> variant;     // that is to be shown
+    std::optional<size_t> variant;     // index of the variant that is to be shown
 
     // The array of this name at the root: "nodes", "meshes", ...
     [[nodiscard]] JsonView list(std::string_view name) const { return JsonView(json)[name]; }

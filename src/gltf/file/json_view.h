@@ -29,7 +29,7 @@ class JsonView {
     [[nodiscard]] JsonView operator[](std::string_view member) const;
     [[nodiscard]] JsonView operator[](size_t element) const;
 
-    [[nodiscard]] size_t size() const { return elements().size(); } // of an array
+    [[nodiscard]] size_t size() const { return elements().size(); } // length of an array
     [[nodiscard]] std::span<const nlohmann::json> elements() const;
     [[nodiscard]] const nlohmann::json::object_t& members() const;
 
@@ -37,7 +37,7 @@ class JsonView {
     [[nodiscard]] double number(std::string_view member, double otherwise) const;
     [[nodiscard]] uint64_t count(std::string_view member, uint64_t otherwise) const;
     [[nodiscard]] bool flag(std::string_view member, bool otherwise) const;
-    [[nodiscard]] const std::string& text(std::string_view member) const; // otherwise empty
+    [[nodiscard]] const std::string& text(std::string_view member) const; // empty where there is none
     [[nodiscard]] std::optional<size_t> index(std::string_view member) const;
 
     // The first elements of a member; those that are missing are as in `otherwise`.

@@ -72,7 +72,7 @@ Pose poseAt(const GltfDocument& document, const ImportOptions& options) {
         const std::string& path = channel["target"].text("path");
         const std::optional<size_t> node = channel["target"].index("node");
         if (!node || (path != "translation" && path != "rotation" && path != "scale" && path != "weights"))
-            continue; // of extensions, which have been named as ignored
+            continue; // extensions have such channels, and were named as ignored
         const size_t sampler = channel.count("sampler", 0);
         if (sampler >= samplers.size())
             throw document.error(fmt::format("{} has {} samplers, but a channel uses number {}", name,

@@ -24,7 +24,7 @@ class ExtensionReader {
     // Clamped to [lower, upper] and noted where that changes it; `otherwise` where the extension lacks it.
     [[nodiscard]] float number(const char* member, double otherwise, double lower = 0.0, double upper = 1.0);
     [[nodiscard]] glm::vec3 color(const char* member, const glm::vec3& otherwise, double largest = 1.0);
-    // Of a colour with four channels; 1 where the extension lacks it.
+    // Alpha of a colour with four channels; 1 where the extension lacks it.
     [[nodiscard]] float alphaOf(const char* member);
     void texture(const char* member, TextureSlot slot, bool isSrgb = false);
 

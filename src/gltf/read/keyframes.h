@@ -41,7 +41,7 @@ class Keyframes {
 
   private:
     enum class Interpolation { step, linear, cubic };
-    enum class Part { inTangent, value, outTangent }; // of a cubic key, in the order of storage
+    enum class Part { inTangent, value, outTangent }; // parts of a cubic key, in the order of storage
 
     void checkValues(const GltfDocument& document);
     [[nodiscard]] glm::dvec4 stored(size_t key, size_t lane, Part part = Part::value) const;

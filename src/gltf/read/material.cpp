@@ -53,7 +53,7 @@ void readAlpha(JsonView source, Material& material) {
     material.alphaCutoff = static_cast<float>(source.number("alphaCutoff", 0.5));
 }
 
-// Of an unlit surface only the base colour counts.
+// Leaves an unlit surface its base colour alone.
 void leaveUnlit(Material& material) {
     material.emission = glm::vec3(0.0f);
     for (size_t slot = 0; slot < kTextureSlots; ++slot)

@@ -37,7 +37,7 @@ MeshInstances groupByMesh(const GltfDocument& document, const std::vector<Placed
 // What is drawn, in numbers whose products may overflow integers.
 struct Extent {
     double triangles = 0.0;
-    double bytes = 0.0; // of meshes in world space, at most
+    double bytes = 0.0; // bytes of meshes in world space, at most
 
     Extent& operator+=(const Extent& other) {
         triangles += other.triangles;
@@ -67,7 +67,7 @@ Extent extentOf(const GltfDocument& document, JsonView primitive) {
         vertexBytes += attribute == "COLOR_0" ? sizeof(glm::vec4) : 0;
         vertexBytes += attribute.starts_with("TEXCOORD_") ? sizeof(glm::vec2) : 0;
     }
-    constexpr double kAllocations = 128.0; // of a mesh, and its name
+    constexpr double kAllocations = 128.0; // overhead of a mesh, and its name
     return {triangles, sizeof(Mesh) + kAllocations +
                            usedVertices(document, primitive) * static_cast<double>(vertexBytes) +
                            triangles * sizeof(glm::uvec3)};
@@ -216,7 +216,7 @@ class MeshReader {
         keep(std::move(mesh));
     }
 
-    // Of each skin once: thousands of nodes may share one.
+    // Makes the joints of each skin once: thousands of nodes may share one.
     const std::vector<glm::dmat4>& jointsOf(size_t skin) {
         const auto known = joints_.find(skin);
         if (known != joints_.end())

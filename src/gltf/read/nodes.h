@@ -14,13 +14,13 @@ namespace lavalight {
 struct PlacedNode {
     size_t node = 0;
     glm::dmat4 toWorld{1.0}; // double: deep hierarchies multiply many
-    bool isVisible = true;   // its mesh and its light; cameras are always there
+    bool isVisible = true;   // whether mesh and light are shown; cameras are always there
 };
 
 // All nodes in one pose.
 struct NodeTree {
     std::vector<PlacedNode> shown;   // parents before children
-    std::vector<glm::dmat4> toWorld; // of every node: joints may stand outside the scene
+    std::vector<glm::dmat4> toWorld; // transform of every node: joints may stand outside the scene
     Pose pose;
 };
 

@@ -34,7 +34,7 @@ void decode(const GltfDocument& document, Job& job) {
     }
 }
 
-// Those that cannot be read say so when they are decoded.
+// Bytes of a picture once decoded; 0 where it cannot be read, which decoding reports.
 uint64_t bytesOf(const GltfImage& image) {
     if (!image.problem.empty())
         return 0;
@@ -90,7 +90,7 @@ std::vector<Picture> readPictures(const GltfDocument& document, std::vector<Mate
     requireFitting(document, jobs);
     decodeAll(document, jobs);
     std::vector<Picture> pictures;
-    std::map<size_t, uint32_t> numbers; // of pictures, by image
+    std::map<size_t, uint32_t> numbers; // numbers of pictures, by image
     for (Job& job : jobs) {
         if (!job.problem.empty()) {
             notes.add(fmt::format("{} cannot be read, its materials show their plain factors: {}",

@@ -133,7 +133,7 @@ TEST(GltfTexture, PictureOfManyMaterialsIsDecodedOnce) {
 TEST(GltfTexture, UnreadablePicturesLeaveThePlainFactorsAndAWarning) {
     const std::vector<std::pair<std::string, const char*>> bad = {
         {"missing.png", "an embedded scene cannot refer to files"},
-        {"data:image/png;base64,AAAA", "it is no PNG, JPEG or WebP file"},
+        {"data:image/png;base64,AAAA", "it is not a PNG, JPEG or WebP file"},
         {kBomb, "it has 16384 x 16384 texels, at most 134217728 are supported"},
         {std::string(kPng).substr(0, 80), "it is damaged"}};
     for (const auto& [uri, message] : bad) {
