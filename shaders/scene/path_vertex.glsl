@@ -147,7 +147,7 @@ void noteSolids(Ray ray, Interaction surface, float distance, inout NextRays nex
     if (!sceneHas(kFeatureSolids))
         return;
     const vec3 e = surface.pError;
-    const float rounding = 32.0 * max(e.x, max(e.y, e.z)); // grows with rounding errors of vertices that were transformed, too
+    const float rounding = 32.0 * max(e.x, max(e.y, e.z)); // covers vertices that were transformed, too
     const bool passes = dot(next.ray.direction, surface.ng) < 0.0;
     next.ray.interior = passes ? passSolid(ray.interior, surface.solid, surface.isFront, distance > rounding)
                                : turnAmongSolids(ray.interior);

@@ -31,7 +31,7 @@ namespace lavalight {
 
 struct MeanDifference {
     glm::dvec3 perChannel{0.0}; // mean(x) / mean(r) - 1 of each channel
-    double overall = 0.0;       // difference of the means over all channels together
+    double overall = 0.0;       // mean(x) / mean(r) - 1 of all channels together
 };
 
 // Relative difference of the image means: 0.01 is an image one per cent too bright. Where r is black: 0 if x

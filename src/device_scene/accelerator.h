@@ -37,7 +37,7 @@ class Accelerator {
     // Puts the buffers into `resources` under the names of the kernels.
     void addTo(gpu::ResourceTable& resources) const;
 
-    // What a film's identity says of it.
+    // The name that a film's identity records.
     [[nodiscard]] static std::string_view name() { return kAcceleratorName; }
     [[nodiscard]] double buildSeconds() const { return buildSeconds_; }
     [[nodiscard]] uint64_t bytes() const { return nodes_.bytes() + triangles_.bytes(); }

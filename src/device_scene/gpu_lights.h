@@ -13,7 +13,7 @@ namespace lavalight {
 
 // Emissive triangles by their numbers in the scene, as kernels do not know them: inRecords() turns them.
 [[nodiscard]] std::vector<LightRecord> packLights(const Lights& lights);
-// `recordOfTriangle`: of each triangle of the scene, in the accelerator.
+// `recordOfTriangle`: the accelerator's record of each triangle of the scene.
 [[nodiscard]] std::vector<LightRecord> inRecords(std::vector<LightRecord> lights,
                                                  std::span<const uint32_t> recordOfTriangle);
 [[nodiscard]] std::vector<PunctualRecord> packPunctuals(const Scene& scene, const Lights& lights);

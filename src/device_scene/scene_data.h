@@ -20,7 +20,7 @@ struct SceneData {
     std::vector<TriangleRecord> triangles; // in the scene's numbering
     std::vector<TriangleNormals> normals;
     std::vector<MaterialRecord> materials;
-    std::vector<LightRecord> lights; // lights number emissive triangles, not records
+    std::vector<LightRecord> lights; // emissive triangles by their numbers in the scene, not by records
     std::vector<PunctualRecord> punctuals;
     std::vector<LightTreeRecord> lightTree;
     // Empty where the scene has no such feature:

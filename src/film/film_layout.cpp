@@ -66,7 +66,7 @@ std::optional<LayerPlane> parsePlane(std::string_view text) {
     plane.shape.hasSquares = words.size() > 2 ? 1 : 0;
     const bool areNames =
         isName(plane.name) && std::all_of(plane.channels.begin(), plane.channels.end(), isName);
-    // What is written as it was read was read to its end.
+    // A text that is written as it was read was read to its end.
     return areNames && plane.channels.size() <= kMostComponents && planeText(plane) == text
                ? std::optional(plane)
                : std::nullopt;

@@ -57,7 +57,8 @@ class FilmLayout {
 // The film of a render that no further layer was asked of.
 [[nodiscard]] const FilmLayout& colorLayout();
 
-// For headers of files: "color: R,G,B unsigned squares; depth: depth.Z signed". Back: nothing for other text.
+// The layout as text for headers of files: "color: R,G,B unsigned squares; depth: depth.Z signed".
+// parseFilmLayout() reads it back, and returns nothing for other text.
 [[nodiscard]] std::string textOf(const FilmLayout& layout);
 [[nodiscard]] std::optional<FilmLayout> parseFilmLayout(std::string_view text);
 

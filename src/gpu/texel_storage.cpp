@@ -16,7 +16,7 @@ namespace {
 // A module is a header of five words and instructions, each of which starts with a word of its length (upper
 // half) and its operation. Types come before functions, and what decorates them before types.
 constexpr size_t kHeaderWords = 5;
-constexpr size_t kBoundWord = 3; // this word is above all ids
+constexpr size_t kBoundWord = 3; // header word whose value is above all ids
 
 // Numbers from the SPIR-V specification, version 1.5, sections 3.7 to 3.32.
 namespace spv {

@@ -126,7 +126,7 @@ bool keepsLights(const RenderSettings& a, const RenderSettings& b) {
            a.lighting.intensity == b.lighting.intensity;
 }
 
-// What takes long before a render can start: the BVH is built on the host while the driver compiles the
+// The slow work before a render can start: the BVH is built on the host while the driver compiles the
 // kernels.
 struct Renderer::Setup {
     FrameParameters frame;

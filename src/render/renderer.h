@@ -56,8 +56,9 @@ class Renderer {
     // Whether all samples are taken.
     [[nodiscard]] bool isDone() const { return position_.samplesDone >= settings_.stop.samples; }
     [[nodiscard]] const RenderPosition& position() const { return position_; }
-    // The position whatever the bands, and the way back to it with its film: what follows has the bits that
-    // it would have had. Its pass must not take more samples at once than there are slots.
+    // progress() is the position whatever the bands; continueFrom() returns to it with the film that belongs
+    // to it, and what follows has the bits that it would have had. The pass must not take more samples at
+    // once than there are slots.
     [[nodiscard]] FilmProgress progress() const;
     void continueFrom(const FilmProgress& progress, const RawFilm& film);
 
@@ -125,7 +126,7 @@ class Renderer {
     bool filmIsEmptied_ = true; // false: emptying it failed, and has to be done before the first sample
 };
 
-// What --target-error is compared with: mean(Var / (mean^2 + 0.01)) over pixels and channels, Var being the
+// The error that --target-error limits: mean(Var / (mean^2 + 0.01)) over pixels and channels, Var being the
 // variance of a pixel's mean. It estimates relMSE for independent samples; Sobol's are correlated, and for
 // them it is an upper bound.
 [[nodiscard]] double errorEstimate(const Rendering& rendering);

@@ -1,4 +1,4 @@
-// What settings of the estimator ask of each other.
+// Rules for settings of the estimator that depend on each other.
 #pragma once
 
 #include "render/estimator_settings.h"

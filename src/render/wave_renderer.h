@@ -1,4 +1,4 @@
-// What renders waves of paths: the interface of the two ways there are, render/wavefront.h and
+// Renderers of waves of paths: the interface of the two that there are, render/wavefront.h and
 // render/fused_paths.h.
 #pragma once
 
@@ -51,8 +51,8 @@ class WaveRenderer {
     std::vector<uint64_t> raysPerBounce_;
 };
 
-// What decides how waves are rendered. Kernels, and the buffers of scene, table and film, must outlive the
-// renderer; `frame` says what scene, camera and settings decide (the size of a band is filled in).
+// Inputs that decide how waves are rendered. Kernels, and the buffers of scene, table and film, must outlive
+// the renderer; `frame` says what scene, camera and settings decide (the size of a band is filled in).
 struct WaveInputs {
     const GpuScene& scene;
     const gpu::Buffer& albedoTable; // the scene's or another

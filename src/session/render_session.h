@@ -17,7 +17,7 @@
 
 namespace lavalight {
 
-// What all images of a session have in common.
+// Inputs that all images of a session share.
 struct RenderPlan {
     std::string scene;       // built-in name, or path of a file
     RenderSettings settings; // width 0: by the camera's aspect ratio

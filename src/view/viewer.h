@@ -30,7 +30,7 @@ class Viewer {
   public:
     // Opens the window and the devices. Throws Error where there is no desktop, or no device.
     explicit Viewer(ViewerConfig config);
-    // Until the window is closed. Throws Error where the device is lost.
+    // Runs until the window is closed. Throws Error where the device is lost.
     void run();
 
   private:

@@ -93,7 +93,7 @@ bool traverse(vec3 origin, vec3 direction, RayFilter ignored, bool any, inout Ne
             if (any && found)
                 return true;
             if (question.isOpen)
-                continue; // the traversal then goes once more through this leaf
+                continue; // once the answer is known, this leaf is tested again
             question.passed = 0u;
             leaf = kEmptyLeaf;
             if (!anyWaits(siblings) && stack.size == 0u)

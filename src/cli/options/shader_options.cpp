@@ -39,7 +39,7 @@ std::string ShaderOptions::folder() const {
     if (!folder_.empty() || !isWatching_)
         return folder_;
     if (!isInSourceTree())
-        throw UsageError("--watch: there is no directory of shaders here; give --shaders DIR (lavalight "
+        throw UsageError("--watch: there is no folder of shaders here; give --shaders DIR (lavalight "
                          "new-experiment makes one)");
     return kOwnFolder;
 }
