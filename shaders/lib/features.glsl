@@ -7,7 +7,7 @@
 #include "shared/frame.h"
 
 layout(constant_id = CONSTANT_FEATURES) const uint kFeatures = 0xffffffffu;
-layout(constant_id = CONSTANT_MORE_FEATURES) const uint kMoreFeatures = 0xffffffffu; // from the 32nd on
+layout(constant_id = CONSTANT_MORE_FEATURES) const uint kMoreFeatures = 0xffffffffu; // features from the 32nd on
 
 // sceneHas() is a macro, and so a constant by itself, where a function's result would pass through a variable: what it guards
 // goes early. The compiler picks the word.

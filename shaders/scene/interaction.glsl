@@ -20,7 +20,7 @@ struct Interaction {
     SurfaceId id;
     uint emitter;  // or kNoEmitter
     uint material;
-    uint solid;    // whose boundary this is, or 0; with kFeatureSolids
+    uint solid;    // solid whose boundary this is, or 0; needs kFeatureSolids
     vec3 b;        // barycentrics
     // With kFeatureTangents, all flipped with ng:
     vec3 tangent;     // unit length, towards growing u

@@ -110,7 +110,7 @@ Vertex makeVertex(Interaction surface, MaterialRecord material, vec3 wo, SampleK
     v.surface = surface;
     v.bsdf = surfaceOf(material, surface.isFront);
     v.basis = shadingBasis(surface, material.anisotropy, material.anisotropyRotation);
-    if (sceneHas(kFeatureClearcoat)) // which normal maps of the base leave alone
+    if (sceneHas(kFeatureClearcoat)) // normal maps of the base leave it alone
         v.bsdf.clearcoat.normal = toLocal(v.basis, surface.coatNormal);
     v.wo = toLocal(v.basis, wo);
     v.receiver = sceneHas(kFeatureLightTree) ? packReceiver(surface.n, isTransmissive(v.bsdf)) : 0u;
@@ -124,7 +124,7 @@ Vertex makeVertex(Interaction surface, MaterialRecord material, vec3 wo, SampleK
 // What there is to trace after a vertex.
 struct NextRays {
     bool goesOn;
-    bool isCut;     // by --max-bounces
+    bool isCut;     // --max-bounces ended the path
     uint overlap;   // packOverlap() of two solids that the path was within at once, it turns out; else 0
     float survival; // probability that roulette left the path; 1: nothing was drawn
     Ray ray;

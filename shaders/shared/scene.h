@@ -85,7 +85,7 @@ struct LightRecord {
     float probability; // probability of staying in this column
     uint alias;        // the other light of this column; of a light in the tree: bit i is set where its path leads into
                        // the second child, i levels below the root
-    float pmf;         // with which the whole table picks this light, or the tree that it is in
+    float pmf;         // probability that the whole table picks this light, or the tree that it is in
     uint source;       // kind in the top two bits; below: triangle record, or index of the punctual light
 };
 SHARED_CONST uint kNoLight = 0xffffffffu;

@@ -15,12 +15,12 @@ struct Ray {
     vec3 origin;
     SurfaceId fromSurface; // surface that the ray starts on, or kNoSurface
     vec3 direction;
-    float originCosine; // between the direction and the shading normal where it starts
+    float originCosine; // cosine between the direction and the shading normal where the ray starts
     uint receiver;      // packed (scene/receiver.glsl): what the light tree was asked for there
     InteriorList interior; // solids that it runs through, with kFeatureSolids
 };
 
-// Where that ray meets the scene first.
+// The first meeting of a ray with the scene.
 struct Hit {
     float t; // distance; infinite: nothing was hit, and the rest is undefined
     uint record; // the triangle's record, in the order of the accelerator: scene/triangle_record.glsl tells what surface it is

@@ -17,7 +17,7 @@ std::vector<uint32_t> run(const std::vector<uint32_t>& spirv, const RegisterPass
     std::string messages;
     optimizer.SetMessageConsumer(
         [&](spv_message_level_t level, const char*, const spv_position_t&, const char* message) {
-            if (level <= SPV_MSG_ERROR) // beyond are warnings, such as functions that cannot be inlined
+            if (level <= SPV_MSG_ERROR) // higher levels warn, e.g. of functions that cannot be inlined
                 messages += fmt::format("\n{}", message);
         });
     registerPasses(optimizer);

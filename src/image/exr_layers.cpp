@@ -14,7 +14,7 @@ namespace {
 using Names = std::vector<std::string>;
 using Channels = std::span<const ExrChannel>;
 
-constexpr std::string_view kVariance = "variance."; // before the name of the channel that it is of
+constexpr std::string_view kVariance = "variance."; // prefix of the channel's name
 
 std::string textOf(Channels channels) {
     std::string names;

@@ -27,7 +27,7 @@ class Wavefront : public WaveRenderer {
     struct Turn {
         Turn(gpu::Device& device, uint32_t maxBounces);
         gpu::Buffer counters;
-        bool isCounted = true; // by countRays(); false: a wave has filled it
+        bool isCounted = true; // countRays() has counted it; false: a wave has filled it since
     };
     [[nodiscard]] gpu::ResourceTable tableOf(const Turn& turn) const;
     gpu::Commands& startRecording();

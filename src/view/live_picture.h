@@ -45,7 +45,7 @@ struct PixelInspection {
     glm::vec3 radiance{0.0f}; // mean of its samples
     glm::vec3 variance{0.0f}; // variance of that mean
     uint32_t count = 0;       // number of samples
-    uint32_t sample = 0;      // whose path this is
+    uint32_t sample = 0;      // the sample whose path this is
     TracedPath path;
 };
 

@@ -79,7 +79,7 @@ class LiveRender {
     std::mutex mutex_; // guards everything below
     std::condition_variable orders_;
     std::optional<LiveRequest> wanted_; // request that is not being rendered yet
-    std::vector<Task> tasks_;           // for the image, as soon as it has a sample
+    std::vector<Task> tasks_;           // tasks to do on the image as soon as it has a sample
     LiveNews news_;
     std::string failure_; // message of the error that ended the thread
     bool isEnding_ = false;

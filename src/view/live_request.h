@@ -12,7 +12,7 @@
 namespace lavalight {
 
 struct LiveRequest {
-    std::shared_ptr<const Scene> scene; // with its environment map
+    std::shared_ptr<const Scene> scene; // the scene with its environment map
     Camera camera;
     RenderSettings settings;                // at the window's size
     std::optional<EstimatorSettings> other; // rendered beside it, for comparison

@@ -35,7 +35,7 @@ class LiveSide {
     [[nodiscard]] LiveView view();
     // Inspects the pixel nearest to that one, of the request's size. The first one compiles a kernel.
     [[nodiscard]] PixelInspection inspect(const glm::uvec2& pixel, uint32_t sample);
-    // There must be an image.
+    // The renderer of the image, which must be there: hasImage().
     [[nodiscard]] const Renderer& renderer() const { return *renderer_; }
     [[nodiscard]] const LiveRequest& request() const { return *request_; }
     [[nodiscard]] bool hasImage() const { return renderer_ != nullptr; }
@@ -50,7 +50,7 @@ class LiveSide {
     ToneMapper* toneMapper_;
     std::optional<LiveRequest> request_;
     std::unique_ptr<Renderer> renderer_;
-    std::optional<PathTracer> tracer_; // with the request's shaders
+    std::optional<PathTracer> tracer_; // compiled with the request's shaders
     LiveStatistics statistics_;
     double secondsPerPath_ = 1e-6; // a first guess; then measured
     uint32_t nextErrorAt_ = 2;     // samples

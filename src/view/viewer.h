@@ -20,7 +20,7 @@
 namespace lavalight {
 
 struct ViewerConfig {
-    ViewState view; // with its scene; settings.image has the window's size
+    ViewState view; // holds the scene; settings.image has the window's size
     gpu::DeviceConfig device;
     std::shared_ptr<ShaderOverlay> shaders; // null: as built
     std::string watched;                    // folder whose shaders are compiled at every save; empty: none

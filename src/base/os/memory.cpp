@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 #include <unistd.h>
-#ifdef __GLIBC__ // which the headers before this line say
+#ifdef __GLIBC__ // defined by the headers before this line
 #include <malloc.h>
 #endif
 

@@ -28,7 +28,7 @@ void printSummary(const RenderReport& report) {
         report.renderSeconds, report.device.name,
         static_cast<double>(report.samples) / report.renderSeconds * 1e-6,
         static_cast<double>(report.rays.total()) / report.renderSeconds * 1e-6, ledgerText(report.ledger));
-    std::fflush(stdout); // who watches wants to know now
+    std::fflush(stdout); // somebody who watches wants to know now
 }
 
 } // namespace
@@ -118,7 +118,8 @@ int RenderCommand::renderMoment(RenderSession& session, const ImportOptions& mom
     return isInterrupted ? guard.exitCode() : 0;
 }
 
-// Until Ctrl-C. A save that changes a kernel ends the render that is under way; any other leaves it alone.
+// Renders until Ctrl-C. A save that changes a kernel ends the render that is under way; any other leaves it
+// alone.
 int RenderCommand::runWatching(RenderSession& session) const {
     FileWatch saves(shaders_.folder());
     RenderJob job = session.prepare(sceneOptions_.importOptions(), outputs_);

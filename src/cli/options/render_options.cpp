@@ -97,7 +97,7 @@ RenderSettings RenderOptions::settings() const {
     settings.estimator = preset_.empty() ? EstimatorSettings{} : findPreset(preset_).settings;
     const std::span<const SettingRow> rows = settingRows();
     for (size_t i = 0; i < rows.size(); ++i)
-        if (parser_->count(optionOf(rows[i])) > 0) // which wins over the preset
+        if (parser_->count(optionOf(rows[i])) > 0) // the option wins over the preset
             setText(rows[i], settings.estimator, estimator_[i]);
     if (!samples_.empty())
         takeRange(settings);
