@@ -9,7 +9,7 @@
 #include <glm/glm.hpp>
 
 #include "gpu/commands.h"
-#include "inspect/path_trace.h"
+#include "inspect/path_inspector.h"
 #include "render/wave_renderer.h"
 #include "scene/scene.h"
 

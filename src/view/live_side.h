@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "gpu/device.h"
-#include "inspect/path_trace.h"
+#include "inspect/path_inspector.h"
 #include "render/renderer.h"
 #include "render/tone_mapper.h"
 #include "view/live_picture.h"
@@ -50,7 +50,7 @@ class LiveSide {
     ToneMapper* toneMapper_;
     std::optional<LiveRequest> request_;
     std::unique_ptr<Renderer> renderer_;
-    std::optional<PathTracer> tracer_; // with the request's shaders
+    std::optional<PathInspector> tracer_; // with the request's shaders
     LiveStatistics statistics_;
     double secondsPerPath_ = 1e-6; // a first guess; then measured
     uint32_t nextErrorAt_ = 2;     // samples

@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "cli/options/option_values.h"
-#include "inspect/path_trace.h"
+#include "inspect/path_inspector.h"
 #include "inspect/traced_fate.h"
 
 namespace lavalight {
@@ -72,7 +72,7 @@ int TraceCommand::run() {
     const KernelSource source = sourceOf(shaders_.overlay());
     gpu::Device device(plan.device);
     const Renderer renderer(device, prepared.scene, prepared.camera, prepared.settings, source);
-    const TracedPath path = PathTracer(device, renderer, source).trace(renderer, pixel, sample_);
+    const TracedPath path = PathInspector(device, renderer, source).trace(renderer, pixel, sample_);
     device.requireNoValidationMessages();
 
     Json json;

@@ -115,9 +115,9 @@ TEST_F(LiveFault, AnyCallOfAReloadOfShadersMayFail) {
     const TemporaryFolder folder;
     std::filesystem::create_directories(folder / "kernels");
     std::string accumulate = readFile(LAVALIGHT_SOURCE_DIR "/shaders/kernels/accumulate.comp");
-    const std::string radiance = "const vec3 radiance = ";
+    const std::string radiance = "paths[slot].radiance";
     ASSERT_NE(accumulate.find(radiance), std::string::npos);
-    accumulate.insert(accumulate.find(radiance) + radiance.size(), "0.5 * ");
+    accumulate.insert(accumulate.find(radiance), "0.5 * ");
     std::ofstream(folder / "kernels/accumulate.comp") << accumulate;
     const LiveRequest shown = smallRequest(Schedule::fused);
     LiveRequest darker = shown;

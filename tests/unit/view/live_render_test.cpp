@@ -13,7 +13,7 @@
 
 #include "base/file.h"
 #include "image/exr.h"
-#include "inspect/path_trace.h"
+#include "inspect/path_inspector.h"
 #include "render/renderer.h"
 #include "render/tone_mapper.h"
 #include "session/builtin.h"
@@ -130,7 +130,7 @@ TEST_F(LiveRenderTest, PathsAreOfTheEstimatorAndShadersThatAreShown) {
         const float shown = inspect({12, 22}).path.radiance.g;
         const KernelSource source = sourceOf(request.shaders);
         const Renderer renderer(device(), *request.scene, request.camera, request.settings, source);
-        EXPECT_EQ(shown, PathTracer(device(), renderer, source).trace(renderer, {12, 22}, 0).radiance.g);
+        EXPECT_EQ(shown, PathInspector(device(), renderer, source).trace(renderer, {12, 22}, 0).radiance.g);
         different.insert(shown);
     }
     EXPECT_EQ(different.size(), 3u);

@@ -20,10 +20,10 @@ struct TracedPath {
 };
 
 // Follows paths with the kernel trace_path, which has the estimator's own functions and is compiled once.
-class PathTracer {
+class PathInspector {
   public:
     // For renders with the renderer's estimator and features. The device must outlive it. Throws Error.
-    PathTracer(gpu::Device& device, const Renderer& renderer, const KernelSource& source = embeddedKernel);
+    PathInspector(gpu::Device& device, const Renderer& renderer, const KernelSource& source = embeddedKernel);
 
     // Whether this one's kernel is that of the renderer's estimator and features.
     [[nodiscard]] bool serves(const Renderer& renderer) const;

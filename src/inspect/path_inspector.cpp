@@ -1,4 +1,4 @@
-#include "inspect/path_trace.h"
+#include "inspect/path_inspector.h"
 
 #include <algorithm>
 #include <cassert>
@@ -9,16 +9,16 @@
 
 namespace lavalight {
 
-PathTracer::PathTracer(gpu::Device& device, const Renderer& renderer, const KernelSource& source)
+PathInspector::PathInspector(gpu::Device& device, const Renderer& renderer, const KernelSource& source)
     : device_(&device),
       constants_(renderer.kernels().constants().begin(), renderer.kernels().constants().end()),
       kernel_(device, source("trace_path"), constants_) {}
 
-bool PathTracer::serves(const Renderer& renderer) const {
+bool PathInspector::serves(const Renderer& renderer) const {
     return std::ranges::equal(constants_, renderer.kernels().constants());
 }
 
-TracedPath PathTracer::trace(const Renderer& renderer, const glm::uvec2& pixel, uint32_t sample) const {
+TracedPath PathInspector::trace(const Renderer& renderer, const glm::uvec2& pixel, uint32_t sample) const {
     assert(serves(renderer));
     const FrameParameters& frame = renderer.frame();
     assert(pixel.x < frame.imageWidth && pixel.y < frame.imageHeight);
