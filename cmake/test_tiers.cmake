@@ -1,10 +1,10 @@
-# How suites of tests run: as shards of one process each, or a process a test, every one with the label of its tier.
+# How suites of tests run: as shards of one process each, or in one process a test. Each run has the label of its tier.
 #
 #   fast        no device: under a minute          faults      what fails on purpose: drivers, memory, disks
-#   device      kernels and programs: 4 minutes    nightly     hours: not run by tools/test
+#   device      kernels and programs: 4 minutes    nightly     hours: run by tools/test --all
 #   statistics  pictures judged by their noise
 #
-# tools/check_tiers holds that each test runs in exactly one tier.
+# tools/check_tiers fails unless each test runs in exactly one tier.
 
 # Seconds after which a shard or a test counts as hung.
 set(lavalight_test_timeout 600)

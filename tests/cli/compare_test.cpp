@@ -214,7 +214,7 @@ TEST_F(Compare, TheHeatmapIsAPictureOfFlip) {
     ASSERT_EQ(map.width, 32u);
     ASSERT_EQ(map.height, 32u);
     const json figures = json::parse(run({"compare", "b.exr", "a.exr", "--json"}).out);
-    const uint32_t colour = heatColour(figures.at("flip").at("mean").get<float>()); // the same everywhere
+    const uint32_t colour = heatColour(figures.at("flip").at("mean").get<float>()); // all pixels have it
     EXPECT_EQ(map.bytes[0], colour & 255);
     EXPECT_EQ(map.bytes[1], colour >> 8 & 255);
     EXPECT_EQ(map.bytes[2], colour >> 16 & 255);

@@ -80,7 +80,7 @@ class Options : public testing::Test {
             expectDescribed(below);
         }
     }
-    // The names of the settings in the report of such a render.
+    // Names of the settings in the report of a render with these options.
     [[nodiscard]] std::set<std::string> recordedWith(const Words& more) const {
         Words words{"render", "--size", "8x8", "-o", "image.exr", "--report", "report.json", "--quiet"};
         words.insert(words.end(), more.begin(), more.end());
@@ -119,12 +119,12 @@ GltfBuilder changingTriangle() {
 }
 
 TEST_F(Options, OfRenderAreOnRecordUnlessTheyAreListedHereWithTheReason) {
-    // Under names of their own (scene, camera, device, png), as first-sample and spp, as the settings that a
-    // preset stands for, and as --at of each frame.
+    // Options that are on record in another way: under names of their own (scene, camera, device, png), as
+    // first-sample and spp, as the settings that a preset stands for, and as --at of each frame.
     const std::set<std::string> elsewhere{"camera",  "device", "tonemap", "exposure",
                                           "samples", "preset", "frames",  "fps"};
-    // What to write and where; how the work is cut up, which no bit depends on; whether to render or refuse;
-    // whether to go on or begin again.
+    // Options that need no record: what to write and where; how the work is cut up, which no bit depends on;
+    // whether to render or refuse; whether to go on or begin again.
     const std::set<std::string> noMatterOfTheImage{"help",
                                                    "output",
                                                    "png",

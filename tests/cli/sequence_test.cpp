@@ -65,7 +65,7 @@ TEST_F(Sequence, EachFrameIsTheImageOfItsTime) {
     const json report = json::parse(readFile(folder_ / "out_0003.json"));
     EXPECT_EQ(report.at("settings").at("at"), "0.75");
     EXPECT_EQ(report.at("png").at("tonemap"), "agx");
-    EXPECT_EQ(report.at("seconds").at("prepareKernels"), 0.0); // those of the first frame serve
+    EXPECT_EQ(report.at("seconds").at("prepareKernels"), 0.0); // the first frame's kernels serve
 }
 
 TEST_F(Sequence, CameraThatStandsInStaysWhereTheFirstFramePutsIt) {

@@ -31,7 +31,7 @@ TEST(SettingOptions, HelpNamesEverySettingItsValuesAndItsDefault) {
     }
 }
 
-// All of them at once, from the command line to the report; the image is of one pixel.
+// All settings at once, from the command line to the report; the image has one pixel.
 TEST(SettingOptions, EveryOptionSetsItsSetting) {
     const TemporaryFolder folder;
     std::vector<std::string> arguments{"render", "--size", "1x1",      "--spp",  "1",

@@ -157,7 +157,8 @@ class EnvironmentSampling : public EnvironmentTest, public testing::WithParamInt
         return std::min(y, rows() - 1) * columns() + std::min(x, columns() - 1);
     }
 
-    // Of each bin: the device's density for MIS, integrated by the midpoint rule over equal solid angles.
+    // The probability of each bin: the device's density for MIS, integrated by the midpoint rule over equal
+    // solid angles.
     [[nodiscard]] std::vector<double> probabilities() {
         std::vector<glm::vec4> directions;
         for (size_t y = 0; y < kGrid * rows(); ++y)

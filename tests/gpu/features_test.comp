@@ -1,5 +1,5 @@
 #version 460
-// Says of features of both words whether the scene has them.
+// Tells which of six features, three of each word, the scene has.
 #include "lib/features.glsl"
 
 layout(local_size_x = 64) in;
@@ -10,8 +10,8 @@ void main() {
         return;
     answers[0] = sceneHas(kFeatureSpecular) ? 1u : 0u; // the lowest bits of both words
     answers[1] = sceneHas(kFeatureLens) ? 1u : 0u;
-    answers[2] = sceneHas(kFeatureSmoothLobes) ? 1u : 0u; // the same bit of both
+    answers[2] = sceneHas(kFeatureSmoothLobes) ? 1u : 0u; // one bit in both words
     answers[3] = sceneHas(kFeatureSolids) ? 1u : 0u;
-    answers[4] = sceneHas(31u) ? 1u : 0u; // the highest of both
+    answers[4] = sceneHas(31u) ? 1u : 0u; // the highest bits of both words
     answers[5] = sceneHas(63u) ? 1u : 0u;
 }

@@ -1,4 +1,4 @@
-// Kernels find the features of a scene in two words.
+// Kernels find a scene's features in two specialisation constants of 32 bits.
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -13,7 +13,8 @@ namespace {
 
 class FeaturesTest : public DeviceTest {
   protected:
-    // Of kFeatureSpecular, Lens, SmoothLobes, Solids, and the numbers 31 and 63.
+    // Whether the kernel sees kFeatureSpecular, Lens, SmoothLobes, Solids, and the features 31 and 63: 1 or
+    // 0.
     std::vector<uint32_t> seenWith(SceneFeatures features) {
         const auto constants = featureConstants(features);
         KernelRunner runner(device(), test_kernels::find("features_test"), {}, constants);

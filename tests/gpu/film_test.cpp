@@ -117,7 +117,7 @@ TEST_F(FilmTest, SumsBeyondTheRangeSaturateAndAreCounted) {
     const Film film(device(), kWidth, kHeight, 0);
     std::vector<Path> paths = wave(glm::vec3(1.0f));
     paths[7].radiance.x = 1e20f; // the sum and the sum of squares
-    paths[9].radiance.y = 1e12f; // its square alone
+    paths[9].radiance.y = 1e12f; // the sum of squares alone
     accumulate(film, {paths});
     EXPECT_EQ(film.readTallies().saturatedSums, 3u);
     EXPECT_GT(film.resolve().radiance().pixels[7].x, 1e14f);
@@ -167,7 +167,7 @@ class SignedLayerTest : public FilmTest {
         const std::array<gpu::SpecialisationConstant, 1> constants{{{CONSTANT_FILM_PLANES, asked}}};
         return gpu::Kernel(device(), leaningKernel(hasSquares), constants);
     }
-    // Of `count` samples a pixel, in an order of their own.
+    // `count` waves of one sample a pixel, of random radiance.
     [[nodiscard]] static std::vector<std::vector<Path>> someWaves(size_t count) {
         Random random(5);
         std::vector<std::vector<Path>> waves(count, wave(glm::vec3(0.0f)));

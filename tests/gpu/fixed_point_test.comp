@@ -10,7 +10,7 @@ struct Answer {
     uvec3 three;
     uint leftThree; // how many additions left the range of three words
     uint leftFour;
-    float value; // of the sum of three words
+    float value; // what the sum of three words stands for
     float signedValue;
     uint leftSigned; // how many values were limited
     uvec4 signedFour;

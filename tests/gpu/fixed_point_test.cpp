@@ -27,7 +27,7 @@ struct alignas(16) Answer { // as in the kernel
     std::array<uint32_t, 3> three;
     uint32_t leftThree;
     uint32_t leftFour;
-    float value; // of the sum of three words
+    float value; // what the sum of three words stands for
     float signedValue;
     uint32_t leftSigned; // how many values were limited
     std::array<uint32_t, 4> signedFour;

@@ -1,4 +1,4 @@
-// Where buffers go on devices that are not here: their memory as drivers report it.
+// Where buffers go on other devices, by the memory that their drivers report.
 #include "gpu/memory_plan.h"
 
 #include <array>
@@ -26,8 +26,8 @@ void addType(Properties& memory, vk::MemoryPropertyFlags flags, uint32_t heap) {
     memory.memoryTypes[memory.memoryTypeCount++] = vk::MemoryType(flags, heap);
 }
 
-// Heaps: the card's, the host's, and a window to the card's. Types: 0 local, 1 host, 2 host and cached, 3
-// window.
+// A graphics card. Heaps: the card's, the host's, and a window to the card's. Types: 0 local, 1 host, 2 host
+// and cached, 3 window.
 Properties card(uint64_t windowBytes) {
     Properties memory;
     addHeap(memory, 8 * kGiB, true);

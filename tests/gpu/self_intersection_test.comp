@@ -6,9 +6,9 @@
 #include "scene/intersect.glsl"
 
 struct Answer {
-    float t;          // of the first ray; infinite: it missed
-    float sameSideT;  // of a ray to the side that the first came from
-    float otherSideT; // of the ray to the other side
+    float t;          // the first ray's hit; infinite: it missed
+    float sameSideT;  // the hit of a ray to the side that the first came from
+    float otherSideT; // the hit of a ray to the other side
 };
 
 layout(local_size_x = 64) in;

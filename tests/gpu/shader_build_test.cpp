@@ -112,7 +112,7 @@ TEST_F(ShaderBuildTest, BindingsAndPushConstantsAreFoundByName) {
                          "layout(push_constant) uniform Push { uint a; uint b; uint c; };\n"
                          "void main() { words[a] = texelFetch(nodes, int(b + c)).x + d; }\n");
     const gpu::KernelCode code = compile("kernel.comp");
-    ASSERT_EQ(code.bindings.size(), 3u); // of those that are used
+    ASSERT_EQ(code.bindings.size(), 3u); // the buffers that are used
     EXPECT_EQ(code.bindings[0].name, "Words");
     EXPECT_EQ(code.bindings[0].binding, 2u);
     EXPECT_EQ(code.bindings[0].kind, gpu::BindingKind::storageBuffer);
@@ -125,7 +125,7 @@ TEST_F(ShaderBuildTest, BindingsAndPushConstantsAreFoundByName) {
     EXPECT_EQ(code.pushConstantBytes, 12u);
 }
 
-// That it still reads the same is what tests/image/device_memory_test.cpp shows.
+// tests/image/device_memory_test.cpp shows that kernels read the same values from them.
 TEST_F(ShaderBuildTest, TexelBuffersBecomeStorageBuffersOfTheirNamesAndBindings) {
     write("kernel.comp", "#version 460\nlayout(local_size_x = 1) in;\n"
                          "layout(set = 0, binding = 7) uniform utextureBuffer nodes;\n"

@@ -12,7 +12,7 @@ namespace lavalight::test {
 namespace {
 
 constexpr uint32_t kSide = 64;      // pixels
-constexpr float kHalfHeight = 0.1f; // of the image, at distance 1
+constexpr float kHalfHeight = 0.1f; // half the image's height at distance 1
 constexpr float kLensRadius = 0.1f; // metres
 constexpr float kRadiance = 1000.0f;
 constexpr float kLampDistance = 4.0f; // metres
@@ -62,13 +62,13 @@ double circleOfConfusion(float focusDistance) {
 }
 
 TEST_F(LensTest, OutOfFocusALampIsADiskAsWideAsTheCircleOfConfusion) {
-    const double width = 2.0 * kHalfLamp / kLampDistance / kHalfHeight * kSide / 2.0; // of the lamp, pixels
+    const double width = 2.0 * kHalfLamp / kLampDistance / kHalfHeight * kSide / 2.0; // the lamp's, in pixels
     const double total = kRadiance * width * width;
     for (const float focus : {2.0f, 1000.0f}) {
         const Spot spot = photograph(focus, kLensRadius);
         const double radius = circleOfConfusion(focus);
         const double lamp = std::sqrt(2.0) * (0.5 * width + 0.5);
-        EXPECT_NEAR(spot.total, total, 0.04 * total) << focus; // its light stays
+        EXPECT_NEAR(spot.total, total, 0.04 * total) << focus; // no light is lost
         EXPECT_GT(spot.within(radius + lamp), 0.9999 * spot.total) << focus;
         EXPECT_LT(spot.within(radius - lamp), 0.99 * spot.total) << focus;
         EXPECT_NEAR(spot.within(0.5 * radius) / spot.total, 0.25, 0.02) << focus; // evenly over the disk

@@ -28,8 +28,8 @@ Image cornellBoxReference() {
         .radiance();
 }
 
-// Of the variance of a pixel's mean, over channels and the pixels that see no light themselves: the edge of a
-// light is noise that no estimator of illumination changes.
+// Average variance of a pixel's mean, over channels and over the pixels that see no light themselves: the
+// edge of a light is noise that no estimator of illumination changes.
 double illuminationVariance(const Rendering& rendering, const Image& emission) {
     double sum = 0.0;
     size_t pixels = 0;

@@ -1,5 +1,4 @@
-// The same scene, settings and seed give the same bits, however the work is cut
-// up.
+// One scene, one set of settings and one seed give the same bits, however the work is cut up.
 #include <gtest/gtest.h>
 
 #include "render/setting_names.h"

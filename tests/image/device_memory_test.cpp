@@ -1,4 +1,4 @@
-// What graphics cards and other drivers make necessary, asked of the device that is here: the bits stay.
+// Ways of working that graphics cards and other drivers need, tried on the device at hand: the bits stay.
 #include <gtest/gtest.h>
 
 #include "render/renderer.h"

@@ -28,7 +28,7 @@ Material colored(const glm::vec3& color, float alpha = 1.0f) {
     return material;
 }
 
-// `cells` x `cells` squares, whose corners neighbours share.
+// A grid of `cells` x `cells` squares. Neighbours share their corners.
 Shape grid(const glm::vec3& corner, const glm::vec3& u, const glm::vec3& v, uint32_t cells) {
     Shape shape;
     for (uint32_t y = 0; y <= cells; ++y)
@@ -44,15 +44,14 @@ Shape grid(const glm::vec3& corner, const glm::vec3& u, const glm::vec3& v, uint
     return shape;
 }
 
-// The same triangles, the last one first.
+// The shape with its triangles in reverse order.
 Shape backwards(Shape shape) {
     std::reverse(shape.triangles.begin(), shape.triangles.end());
     return shape;
 }
 
-// Floors, walls and balls of shared edges; each is there twice or three times
-// in one place, in other colours, in another order of its triangles, and where
-// alpha lets some rays through.
+// A room whose floor, wall and ball lie two or three times in one place. Copies differ in colour and in the
+// order of their triangles, and alpha lets some rays through; triangles share edges.
 Scene crowdedRoom() {
     const Shape floor = grid({-2, 0, -2}, {0, 0, 4}, {4, 0, 0}, 13);
     const Shape wall = grid({-2, 0, -2}, {4, 0, 0}, {0, 4, 0}, 7);

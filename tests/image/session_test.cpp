@@ -1,4 +1,4 @@
-// The job without a command line: what Python, a server and the window build on.
+// A render session without a command line, as a server or the window uses it.
 #include <array>
 #include <string>
 #include <thread>
@@ -27,7 +27,7 @@ RenderPlan smallPlan(uint32_t seed = 0) {
     return plan;
 }
 
-// Renders to the end; `keepGoing` may stop it.
+// Renders to the end, or until `keepGoing` says stop.
 RenderJob rendered(
     RenderSession& session, const Outputs& outputs = {},
     const RenderJob::KeepGoing& keepGoing = [](double) { return true; }) {

@@ -16,7 +16,7 @@ namespace lavalight::test {
 namespace {
 
 constexpr uint32_t kSide = 32;
-constexpr uint32_t kMaxBounces = 4; // of all that is compared: without roulette, paths would run on to 64
+constexpr uint32_t kMaxBounces = 4; // for every render: without roulette, paths would run on to 64
 
 // One value of one setting, which is not the default.
 struct Change {

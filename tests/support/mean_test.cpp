@@ -26,9 +26,10 @@ double sumOf(const Image& variance, glm::length_t channel) {
     return sum;
 }
 
-// Of the tiles that count: by the image's own variance, and by the reference's, times as much as the image as
-// a whole has more of it. The first alone would prefer tiles that missed rare bright samples, which seem
-// precise and are too dark; the second alone would not see where an estimator is worse than elsewhere.
+// Differences of the tiles that are precise enough, both by the image's own variance and by the reference's,
+// scaled by how much noisier the image is as a whole. The image's variance alone would prefer tiles that
+// missed rare bright samples, which seem precise and are too dark; the reference's alone would not see where
+// an estimator is worse than elsewhere.
 std::vector<Difference> tileDifferences(const Rendering& image, const Rendering& reference, uint32_t side,
                                         glm::length_t channel) {
     const Rendering ti = downsample(image, side);

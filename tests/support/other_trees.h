@@ -7,10 +7,10 @@
 
 namespace lavalight::test {
 
-// By the builder of last resort. There must be triangles.
+// A tree by the builder of last resort. There must be triangles.
 [[nodiscard]] Bvh medianBvh(std::span<const Triangle> triangles);
 
-// The same nodes, with the triangles of each leaf in the opposite order.
+// The tree with the triangles of each leaf in reverse order.
 [[nodiscard]] Bvh withLeavesReversed(Bvh bvh);
 
 } // namespace lavalight::test

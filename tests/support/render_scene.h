@@ -31,7 +31,7 @@ struct RenderResult {
 // the same.
 [[nodiscard]] RenderResult renderScene(gpu::Device& device, const Scene& scene,
                                        const RenderSettings& settings);
-// With other kernels than those that the build embedded.
+// The render with other kernels than those that the build embedded.
 [[nodiscard]] RenderResult renderScene(gpu::Device& device, const Scene& scene,
                                        const RenderSettings& settings, const KernelSource& kernels);
 

@@ -143,7 +143,7 @@ TEST_F(View, ComparesTwoSettingsSideBySide) {
     std::this_thread::sleep_for(std::chrono::milliseconds(500));
     waitFor(kDone);
     const Screenshot one = rendered({"cornell-box"});
-    const Screenshot two = desktop_.shoot(window_); // the same settings: the same pixels but for the line
+    const Screenshot two = desktop_.shoot(window_); // equal settings: equal pixels but for the line
     size_t different = 0;
     for (size_t i = 0; i < one.pixels.size(); ++i)
         different += one.pixels[i] != two.pixels[i];

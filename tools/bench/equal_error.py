@@ -23,15 +23,15 @@ import gltf_to_mitsuba
 
 ROOT = Path(__file__).resolve().parents[2]
 REFERENCES = ROOT / "tests/references"
-STORED_SCENES = ["cornell-box", "cornell-glass", "many-lights", "veach-mis"]  # those with a reference
+STORED_SCENES = ["cornell-box", "cornell-glass", "many-lights", "veach-mis"]  # scenes with a reference
 # Flat, because each renderer reads smooth normals in its own way, and errors would not compare.
 DENSE_SCENES = ["dense-300000-flat", "dense-3000000-flat"]
 SCENES = STORED_SCENES + DENSE_SCENES
-DENSE_SIZE = (256, 256)  # of scenes without a stored reference
-REFERENCE_SAMPLES = 512  # of the reference that is then made, by Lavalight with another seed
+DENSE_SIZE = (256, 256)  # image size of scenes without a stored reference
+REFERENCE_SAMPLES = 512  # a pixel, in the reference that Lavalight then makes with another seed
 RAY_SCENES = ["cornell-box", "dense-300000", "dense-3000000"]
 MOST_SAMPLES = 4096
-MAX_BOUNCES = 64  # of both, as the references
+MAX_BOUNCES = 64  # both renderers', as in the references
 ROULETTE_DEPTH = 5  # Mitsuba's default
 NEAR_ENOUGH = 2  # times the target: from there on the error is taken to fall with the samples
 

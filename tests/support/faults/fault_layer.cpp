@@ -209,7 +209,7 @@ VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL instanceProcAddr(VkInstance instance, c
     if (wanted == "vkGetPhysicalDeviceSurfaceSupportKHR" && fault.hidesWindows)
         return reinterpret_cast<PFN_vkVoidFunction>(&noSurfaceSupport);
     const PFN_vkVoidFunction next = nextInstanceProcAddr(instance, name);
-    INSTANCE_CALLS(RETURN_WRAPPED) // those of devices come through deviceProcAddr
+    INSTANCE_CALLS(RETURN_WRAPPED) // calls of devices come through deviceProcAddr
     return next;
 }
 

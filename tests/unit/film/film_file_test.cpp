@@ -38,7 +38,7 @@ class FilmFiles : public testing::Test {
         return errorOf([&] { (void)readFilmFile(folder_ / name); });
     }
 
-    // Thousands of times, too often to wait for the disk.
+    // This is called thousands of times, so it does not wait for the disk.
     void writeBytes(const std::string& name, const std::string& bytes) const {
         std::ofstream(folder_ / name, std::ios::binary) << bytes;
     }
@@ -77,7 +77,7 @@ TEST_F(FilmFiles, BringTheirLayersWithThem) {
     EXPECT_LT(image.find("tilt")->mean.pixels.front().x, 0.0f);
 }
 
-// A file without a layout, and with the tallies that there were then.
+// A file from before layouts, with the tallies that there were then.
 TEST_F(FilmFiles, FromBeforeThereWereLayersAreRead) {
     const FilmFile old =
         readFilmFile(std::string(LAVALIGHT_SOURCE_DIR) + "/tests/references/film-without-layout.exr");

@@ -38,7 +38,7 @@ TEST(FilmLayout, SignedSumsHaveAWordMoreAndPlanesWithoutSquaresNone) {
     EXPECT_FALSE(numbers[9].isSigned);
 }
 
-// What the kernels compute of the rows is what the class says.
+// The kernels' macros and FilmLayout compute the same from the rows of planes.
 TEST(FilmLayout, SharedFunctionsAgreeWithIt) {
     for (uint32_t asked = 1; asked < 1u << kFilmPlaneCount; asked += 2) {
         const FilmLayout layout = layoutOf(asked);

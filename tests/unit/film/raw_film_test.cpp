@@ -10,11 +10,12 @@
 namespace lavalight {
 namespace {
 
-// One pixel. Words of a channel's sum and square by their places.
+// A film of one pixel without samples.
 RawFilm emptyFilm() {
     return {1, 1, std::vector<uint32_t>(colorLayout().words(), 0), {}};
 }
 
+// Places of the first words of green's sum and of its sum of squares.
 constexpr uint32_t kGreen = kSumWords + kSquareWords;
 constexpr uint32_t kGreenSquare = kGreen + kSumWords;
 const uint32_t kCountWord = colorLayout().countWord();
@@ -92,7 +93,8 @@ TEST(RawFilm, ItsImageIsThatOfItsSums) {
     EXPECT_EQ(image.variance().pixels.front(), glm::vec3(0.0f, 1.0f, 0.0f)); // (10 / 2 - 4) / (2 - 1)
 }
 
-// One pixel of test::signedLayout(): words of the sums of tilt.X and height.Z by their places.
+// Places of the first words of the sums of tilt.X and height.Z in test::signedLayout(), for a film of one
+// pixel.
 constexpr uint32_t kTilt = 21;
 constexpr uint32_t kHeight = kTilt + 2 * kSignedSumWords;
 constexpr uint32_t kHeightSquare = kHeight + kSignedSumWords;

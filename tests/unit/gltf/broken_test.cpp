@@ -6,7 +6,7 @@
 namespace lavalight::test {
 namespace {
 
-// The same file with one value changed.
+// Expects an error of the good file with the value at `pointer` changed.
 void expectErrorAfter(const char* pointer, const Json& value, const std::string& text) {
     GltfBuilder builder = goodFile();
     builder.json[Json::json_pointer(pointer)] = value;

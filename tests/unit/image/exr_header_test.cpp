@@ -77,7 +77,7 @@ TEST_F(ExrHeader, ClaimsBeyondTheFileAreRefused) {
     expectRefusal(bytes_.substr(0, at), "it ends within its header");
 }
 
-// Of both, the sizes of parts come to another sum than the attribute's.
+// The sizes of the parts come to another sum than the attribute's size.
 TEST_F(ExrHeader, PartsOfPreviewsAndListsOfTextsAreCounted) {
     const auto insert = [&](const std::string& attribute) {
         std::string bytes = bytes_;

@@ -98,7 +98,7 @@ TEST_F(LiveFault, AnyCallOfAChangeOfSizeMayFail) {
     expectEveryCallMayFail(shown, larger);
 }
 
-// A third of the calls each, so that they run side by side: each of them compiles kernels.
+// Each test takes a third of the calls, so that the three run side by side: each compiles kernels.
 class LiveSettingsFault : public LiveFault, public testing::WithParamInterface<long> {};
 
 TEST_P(LiveSettingsFault, AnyCallMayFail) {

@@ -135,7 +135,7 @@ class PanelTest : public testing::Test {
     bool wantsSave_ = false;
 };
 
-// Its items come above those that stand open.
+// The panel with Scene open, and with Estimator and Screen closed.
 class ScenePanelTest : public PanelTest {
   protected:
     ScenePanelTest() {
@@ -290,7 +290,7 @@ PixelInspection inspectionOf(const std::shared_ptr<const Scene>& scene) {
     wall.flags = kTracedShadowRay | kTracedGoesOn;
     TracedVertex sky{};
     sky.t = std::numeric_limits<float>::infinity();
-    sky.material = 0xffffffffu; // of no material
+    sky.material = 0xffffffffu; // no material
     inspection.path.vertices = {wall, wall, sky};
     return inspection;
 }
