@@ -28,8 +28,8 @@ vk::BufferUsageFlags usageFlags(BufferUse use) {
     return copies | Usage::eStorageBuffer | Usage::eIndirectBuffer;
 }
 
-// Best first: what the host can map costs no staging copy, and on CPUs and integrated GPUs it is the same
-// memory.
+// Memory types, best first: what the host can map costs no staging copy, and on CPUs and integrated GPUs it
+// is the same memory.
 std::vector<vk::MemoryPropertyFlags> memoryWishes(BufferUse use) {
     using Memory = vk::MemoryPropertyFlagBits;
     const vk::MemoryPropertyFlags mappable = Memory::eHostVisible | Memory::eHostCoherent;

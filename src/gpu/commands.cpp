@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cstdlib>
 
-#include <spdlog/spdlog.h>
+#include <fmt/format.h>
 
 namespace lavalight::gpu {
 namespace {
@@ -123,8 +122,8 @@ void Commands::submitAndWait() {
         const vk::CommandBuffer commands = recorded(buffers_);
         const vk::SubmitInfo submit({}, {}, commands);
         device_->queue().submit(submit, *fence_);
-        if (!waitForFence())
-            endProcess();
+        while (!waitForFence())
+            reportTimeout();
     });
     collectTimes();
 }
@@ -150,11 +149,9 @@ bool Commands::waitForFence() const {
     }
 }
 
-void Commands::endProcess() const {
-    spdlog::error("kernel {} has not come back within {} s (--kernel-timeout)", unfinishedKernel(),
-                  device_->kernelTimeout());
-    spdlog::default_logger()->flush();
-    std::_Exit(1);
+void Commands::reportTimeout() const {
+    device_->reportKernelTimeout(fmt::format("kernel {} has not come back within {} s (--kernel-timeout)",
+                                             unfinishedKernel(), device_->kernelTimeout()));
 }
 
 std::string Commands::unfinishedKernel() const {

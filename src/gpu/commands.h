@@ -30,20 +30,18 @@ class Commands {
   public:
     explicit Commands(Device& device);
 
-    // Starts recording anew. Not while a submission runs.
+    // Starts recording anew. No submission may be running.
     void begin();
-    // `groups` workgroups along x; push constants must be as long as the kernel declares.
+    // Records `groups` workgroups along x; push constants must be as long as the kernel declares.
     void dispatch(const BoundKernel& kernel, uint32_t groups, std::span<const std::byte> pushConstants = {});
-    // Workgroup counts are read from `sizes` (three uint32) at `offset` bytes.
+    // Records a dispatch whose workgroup counts are read from `sizes` (three uint32) at `offset` bytes.
     void dispatchIndirect(const BoundKernel& kernel, const Buffer& sizes, uint64_t offset,
                           std::span<const std::byte> pushConstants = {});
     // Sets every 32-bit word of `buffer`.
     void fill(const Buffer& buffer, uint32_t value);
     void copy(const Buffer& from, const Buffer& to, uint64_t bytes);
     // Ends recording, runs, and returns when all is done. Throws Error where the device fails or is lost.
-    // Where it takes longer than the device's kernelTimeout, the process ends at once with a message and exit
-    // code 1: what a device works on cannot be taken back from it, so that there is no way to go on, or to
-    // clean up.
+    // Where it takes longer than the device's kernelTimeout, DeviceConfig::onKernelTimeout is called.
     void submitAndWait();
 
     // Sums over all submissions so far; empty on a queue without timestamps.
@@ -56,7 +54,7 @@ class Commands {
     void mark(const std::string& kernel);
     void waitUntilIdle() const;
     [[nodiscard]] bool waitForFence() const;
-    [[noreturn]] void endProcess() const;
+    void reportTimeout() const;
     [[nodiscard]] std::string unfinishedKernel() const;
     void collectTimes();
 
@@ -65,13 +63,13 @@ class Commands {
     std::vector<vk::raii::CommandBuffer> buffers_; // exactly one
     vk::raii::Fence fence_ = nullptr;
     std::vector<vk::raii::Event> marks_; // set when a kernel of the submission is done, in order
-    std::vector<std::string> marked_;    // its name
+    std::vector<std::string> marked_;    // names of the kernels of these marks
     vk::raii::QueryPool queries_ = nullptr;
     std::vector<std::string> stamps_; // the name whose work ends at timestamp i; empty: not a kernel
     KernelTimes times_;
 };
 
-// One-shot copy of the first `bytes` bytes.
+// Copies the first `bytes` bytes, once.
 void copyAndWait(Device& device, const Buffer& from, const Buffer& to, uint64_t bytes);
 
 } // namespace lavalight::gpu

@@ -27,7 +27,7 @@ class FusedPaths : public WaveRenderer {
         gpu::BoundKernel path, accumulate;
     };
 
-    // One dispatch; the number of lanes that want another.
+    // Runs one dispatch and returns the number of lanes that want another.
     [[nodiscard]] uint32_t advance(const Band& band, const WaveRange& range, uint32_t lanes);
 
     State state_;

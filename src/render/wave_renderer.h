@@ -56,8 +56,8 @@ struct WaveInputs {
     std::function<const gpu::Kernel&(std::string_view name)> kernel;
 };
 
-// Settings::kernels must not be automatic. The device must outlive the renderer.
-[[nodiscard]] std::unique_ptr<WaveRenderer> makeWaveRenderer(gpu::Device& device, Kernels kernels,
+// The schedule must not be automatic. The device must outlive the renderer.
+[[nodiscard]] std::unique_ptr<WaveRenderer> makeWaveRenderer(gpu::Device& device, Schedule schedule,
                                                              const WaveInputs& inputs);
 
 // A band of the film with its frame parameters, added to `state`, the buffers that all bands share.
