@@ -12,6 +12,7 @@
 #include "base/file.h"
 #include "gpu/shader_build.h"
 #include "gpu/spirv_passes.h"
+#include "kernels/accelerator_name.h"
 
 namespace {
 
@@ -93,7 +94,7 @@ void writeSource(const Arguments& arguments) {
     std::string arrays;
     std::string branches;
     for (const std::filesystem::path& file : arguments.files) {
-        gpu::KernelCode code = gpu::compileKernel(file, arguments.includeRoot);
+        gpu::KernelCode code = gpu::compileKernel(file, arguments.includeRoot, includedFile);
         code.spirv = gpu::inlined(code.spirv);
         arrays += arrayOf(code);
         branches += branchOf(code);

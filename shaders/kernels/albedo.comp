@@ -8,8 +8,8 @@
 #include "lib/bsdf/specular.glsl"
 #include "shared/bindings.h"
 
-layout(local_size_x = 64) in; // kAlbedoCosines
-// As in scene/albedo_table.glsl, then the entries as they were before rounding.
+layout(local_size_x = 64) in; // an invocation for each of kAlbedoCosines
+// The table of scene/albedo_table.glsl, then the entries as they were before rounding.
 layout(set = 0, binding = BINDING_ALBEDO_OUT, std430) buffer AlbedoOut { vec4 albedo[]; };
 layout(push_constant) uniform Push { uint stage; };
 
@@ -19,7 +19,7 @@ const uint kRaw = kAlbedoEntries + kAlbedoAverages;
 // is off by up to 0.011.
 const uint kPoints = 1597u;
 const uint kGenerator = 987u;
-const vec3 kLatticeError = vec3(8e-4, 4e-4, 2e-3); // of what an entry holds (device test)
+const vec3 kLatticeError = vec3(8e-4, 4e-4, 2e-3); // errors of what an entry holds (device test)
 
 // The lobe is symmetric to the plane of wo: half a turn of the warp's first axis stands for all of it.
 vec2 latticePoint(uint i) {
@@ -44,7 +44,7 @@ vec2 specularEntry(float cosTheta, float alpha) {
     return sum / float(kPoints) - vec2(0.0, schlickWeight(cosTheta));
 }
 
-// Of white sheen, whose lobe is even in the azimuth too. The warp's axes are swapped against those of GGX.
+// Entry of white sheen, whose lobe is even in the azimuth too. The warp's axes are swapped against those of GGX.
 float sheenEntry(float cosTheta, float alpha) {
     const vec3 wo = directionOf(cosTheta);
     float sum = 0.0;
@@ -70,7 +70,7 @@ vec3 rawAt(int column, int row) {
     return albedo[kRaw + uint(row) * kAlbedoCosines + uint(column)].xyz;
 }
 
-// Second difference along a direction; at the rim that of the entry next to it.
+// Second difference along a direction; at the rim, that of the next entry.
 vec3 bend(int column, int row, ivec2 along) {
     column = clamp(column, along.x, int(kAlbedoCosines) - 1 - along.x);
     row = clamp(row, along.y, int(kAlbedoRoughnesses) - 1 - along.y);

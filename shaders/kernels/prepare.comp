@@ -4,7 +4,7 @@
 #include "scene/wave.glsl"
 
 layout(local_size_x = 1) in;
-// Element 0: connect; element 1: extend and shade of the next bounce.
+// Sizes of dispatches: element 0 is for connect, element 1 for extend and shade of the next bounce.
 layout(set = 0, binding = BINDING_DISPATCH_SIZES, std430) writeonly buffer DispatchSizes { DispatchSize sizes[]; };
 
 DispatchSize sizeFor(uint items) {

@@ -11,7 +11,7 @@ void main() {
     if (i >= shadowRays.length())
         return;
     const ShadowRay ray = shadowRays[i];
-    const RayFilter ignored = RayFilter(false, ray.fromTriangle, ray.toTriangle, 0u);
+    const RayFilter ignored = RayFilter(false, ray.fromSurface, ray.toSurface, 0u);
     occluded[i] = intersectAny(ray.origin, ray.direction, 1.0, ignored) ? 1u : 0u;
     tallyVisits();
 }

@@ -13,9 +13,9 @@ void main() {
         return;
     const Ray ray = rays[i];
     Hit hit;
-    if (intersectClosest(ray.origin, ray.direction, kInfinity, RayFilter(false, ray.fromTriangle, kNoTriangle, 0u), hit))
-        hits[i] = TracedHit(hit.t, loadLeafTriangle(hit.leafTriangle).triangle);
+    if (intersectClosest(ray.origin, ray.direction, kInfinity, RayFilter(false, ray.fromSurface, kNoSurface, 0u), hit))
+        hits[i] = TracedHit(hit.t, loadTriangle(hit.record).surface);
     else
-        hits[i] = TracedHit(kInfinity, kNoTriangle);
+        hits[i] = TracedHit(kInfinity, kNoSurface);
     tallyVisits();
 }

@@ -15,12 +15,12 @@ TracedVertex describe(Ray ray, Hit hit) {
     TracedVertex v;
     v.t = hit.t;
     v.position = hit.t == kInfinity ? ray.direction : ray.origin + hit.t * ray.direction;
-    v.triangle = kNoTriangle;
+    v.surface = kNoSurface;
     v.material = 0u;
     v.flags = 0u;
     if (hit.t != kInfinity) {
-        const LeafTriangle triangle = loadLeafTriangle(hit.leafTriangle);
-        v.triangle = triangle.triangle;
+        const TriangleRecord triangle = loadTriangle(hit.record);
+        v.surface = triangle.surface;
         v.material = triangle.material & kMaterialMask;
         v.flags = makeInteraction(hit, -ray.direction).isFront ? kTracedFront : 0u;
     }

@@ -29,5 +29,5 @@ Ray cameraRay(FrameParameters frame, vec2 position, vec2 lens) {
         direction = equirectangularToDirection(uv);
     if (sceneHas(kFeatureLens))
         moveOnLens(frame, lens, origin, frame.cameraForward + onPlane, direction);
-    return Ray(origin, kNoTriangle, direction, 0.0, 0u, SolidsSeen(0u, 0u, kSolidsApart));
+    return Ray(origin, kNoSurface, direction, 0.0, 0u, InteriorList(0u, 0u, 0u));
 }

@@ -16,8 +16,8 @@ float reduceCoordinate(float u, uint wrap) {
     return wrap == kWrapClamp ? clamp(u, -1.0, 2.0) : u - periods;
 }
 
-// The texel's column or row within the picture, for one of a reduced coordinate or its neighbour. What is no number
-// leads into the picture, too.
+// The texel's column or row within the picture, for one of a reduced coordinate or its neighbour. NaN leads into the picture
+// too.
 int wrapTexel(int i, int size, uint wrap) {
     const int period = wrap == kWrapMirror ? 2 * size : size;
     int inPeriod = i < 0 ? i + period : i;

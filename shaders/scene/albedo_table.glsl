@@ -46,7 +46,7 @@ float specularMaskingLoss(float cosTheta, float alpha) {
     return specularEntry(cosTheta, alpha).x;
 }
 
-// As specularEntry().
+// Averages of specularEntry() over the hemisphere by the cosine.
 vec2 specularAverageEntry(float alpha) {
     vec2 entry = vec2(0.0, 1.0 / 21.0); // 2 * integral of schlickWeight(c) c
     const float place = float(kAveragesPerRow) * albedoRow(sqrt(alpha), kLeastTabulatedRoughness);

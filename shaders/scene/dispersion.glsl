@@ -14,7 +14,7 @@ vec3 channelIors(float ior, float dispersion) {
     return max(vec3(ior - halfSpread, ior, ior + halfSpread), 1.0);
 }
 
-// By what the channels carry, so that the largest weight of a path does not grow; one that is alone stays as it is.
+// Chooses by what the channels carry, so that the largest weight of a path does not grow; one that is alone stays as it is.
 void chooseChannel(float u, inout Path path, inout MaterialRecord material) {
     const vec3 iors = channelIors(material.ior, material.dispersion);
     const vec3 t = path.throughput;

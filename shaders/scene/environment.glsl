@@ -27,7 +27,7 @@ struct EnvironmentCell {
     vec3 topRight;
     vec3 bottomLeft;
     vec3 bottomRight;
-    float scale; // of the density
+    float scale; // factor of the density
 };
 
 EnvironmentCell fetchEnvironmentCell(FrameParameters frame, uvec2 cell) {
@@ -107,7 +107,7 @@ EnvironmentPlace pickEnvironmentCell(FrameParameters frame, vec2 u) {
     return pick;
 }
 
-// Place by the density of environmentDensity: a row by what both its ends have, then along it.
+// Place in a cell by the density of environmentDensity: a row by what both its ends have, then a place along it.
 vec2 squareToEnvironmentCell(vec2 u, EnvironmentCell cell) {
     const vec4 ends = vec4(dot(cell.topLeft, vec3(1.0)), dot(cell.topRight, vec3(1.0)), dot(cell.bottomLeft, vec3(1.0)),
                            dot(cell.bottomRight, vec3(1.0)));

@@ -2,8 +2,8 @@
 #include "lib/features.glsl"
 #include "lib/math/octahedral.glsl"
 #include "lib/math/ray_offset.glsl"
-#include "scene/leaf_triangle.glsl"
 #include "scene/tangent_frame.glsl"
+#include "scene/triangle_record.glsl"
 #include "shared/bindings.h"
 #include "shared/scene.h"
 #include "shared/wavefront.h"
@@ -17,7 +17,7 @@ struct Interaction {
     vec3 n;        // shading normal, unit length, flipped with ng
     bool isFront;  // wo is on the triangle's front
     float area;
-    uint triangle; // id
+    SurfaceId id;
     uint emitter;  // or kNoEmitter
     uint material;
     uint solid;    // whose boundary this is, or 0; with kFeatureSolids
@@ -30,10 +30,10 @@ struct Interaction {
     vec2 anisotropyDirection; // in units of tangent and bitangent
 };
 
-vec3 shadingNormal(LeafTriangle triangle, vec3 b, vec3 ng) {
+vec3 shadingNormal(TriangleRecord triangle, vec3 b, vec3 ng) {
     if (!sceneHas(kFeatureShadingNormals) || (triangle.material & kFlatBit) != 0u)
         return ng;
-    const uvec4 packedNormals = texelFetch(triangleNormals, int(triangle.triangle));
+    const uvec4 packedNormals = texelFetch(triangleNormals, int(attributeIndex(triangle.surface)));
     const vec3 n = b.x * decodeOctahedral(packedNormals.x) + b.y * decodeOctahedral(packedNormals.y) +
                    b.z * decodeOctahedral(packedNormals.z);
     const float length2 = dot(n, n);
@@ -43,7 +43,7 @@ vec3 shadingNormal(LeafTriangle triangle, vec3 b, vec3 ng) {
 // The frame for normal maps, on the side of wo.
 void addTangentFrame(inout Interaction i) {
     const float side = i.isFront ? 1.0 : -1.0;
-    const Basis frame = tangentFrame(i.triangle, i.b, side * i.n);
+    const Basis frame = tangentFrame(i.id, i.b, side * i.n);
     i.tangent = side * frame.tangent;
     i.bitangent = side * frame.bitangent;
 }
@@ -65,7 +65,7 @@ Basis shadingBasis(Interaction i, float anisotropy, float rotation) {
 
 // wo: unit vector from the hit back along the ray.
 Interaction makeInteraction(Hit hit, vec3 wo) {
-    const LeafTriangle triangle = loadLeafTriangle(hit.leafTriangle);
+    const TriangleRecord triangle = loadTriangle(hit.record);
     const vec3 e1 = triangle.v1 - triangle.v0;
     const vec3 e2 = triangle.v2 - triangle.v0;
     const vec3 normal = cross(e1, e2);
@@ -84,10 +84,10 @@ Interaction makeInteraction(Hit hit, vec3 wo) {
         i.ng = -i.ng;
         i.n = -i.n;
     }
-    i.triangle = triangle.triangle;
-    i.emitter = triangle.emitter;
+    i.id = triangle.surface;
+    i.emitter = emitterOf(triangle);
     i.material = triangle.material & kMaterialMask;
-    i.solid = sceneHas(kFeatureSolids) ? texelFetch(triangleNormals, int(triangle.triangle)).w : 0u;
+    i.solid = sceneHas(kFeatureSolids) ? texelFetch(triangleNormals, int(attributeIndex(triangle.surface))).w : 0u;
     i.b = b;
     i.tangent = i.bitangent = vec3(0.0);
     i.meshNormal = i.coatNormal = i.n;

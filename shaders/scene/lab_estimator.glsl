@@ -13,7 +13,7 @@ float sampleOnce(SampleKey key);
 
 void main() {
     const uint invocation = gl_GlobalInvocationID.x;
-    if (invocation > (run.sampleCount - 1u) / run.samplesEach) // groups are full, the last one's work need not be
+    if (invocation > (run.sampleCount - 1u) / run.samplesEach) // all groups are full, but the last one may have less work
         return;
     const uint count = min(run.samplesEach, run.sampleCount - invocation * run.samplesEach);
     SampleKey key = SampleKey(run.seed, invocation / run.blocks, (invocation % run.blocks) * run.samplesEach, 0u);

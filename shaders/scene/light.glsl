@@ -26,7 +26,7 @@ float lightPmf(FrameParameters frame, Receiver receiver, uint light) {
     return isInLightTree(frame, light) ? record.pmf * lightTreePmf(receiver, record.alias) : record.pmf;
 }
 
-// Of the environment, which is at infinity and so in no tree.
+// Probability of picking the environment, which is at infinity and so in no tree.
 float environmentPmf(FrameParameters frame) {
     return fetchLight(frame.environmentLight).pmf;
 }
@@ -40,9 +40,9 @@ struct LightPick {
 const float kLargestPlace = 1.0 - 5.9604644775390625e-8; // 1 - 2^-24
 const float kLowBitsToUnit = 2.3283064365386963e-10;     // 2^-32
 
-// Alias method: a column, then the light in it. Walker 1977; Vose 1991. The high word of bits * columns is the column, the
-// low word the place within it: one 32-bit number serves both, uneven by a relative columns / 2^32. The place is then
-// stretched over the part of the column that was met, and so on down the light tree, so that one Sobol pair stratifies
+// The alias method picks a column, then the light in it (Walker 1977; Vose 1991). The high word of bits * columns is the
+// column, the low word the place within it: one 32-bit number serves both, uneven by a relative columns / 2^32. The place is
+// then stretched over the part of the column that was met, and so on down the light tree, so that one Sobol pair stratifies
 // lights and points on them together: a quad's two triangles are one light to it. The tree decides by 24 bits of the
 // place, and the other 8 make up for what stretching uses up.
 LightPick pickLight(FrameParameters frame, Receiver receiver, uint bits) {
@@ -67,8 +67,8 @@ LightPick pickLight(FrameParameters frame, Receiver receiver, uint bits) {
     return pick;
 }
 
-// Next-event estimation; frame.lightColumns > 0. `n`: the shading normal, which the receiver has but roughly. The pdf
-// includes the pmf of the pick.
+// Draws a light sample for next-event estimation; frame.lightColumns > 0. `n`: the shading normal, which the receiver has but
+// roughly. The pdf includes the pmf of the pick.
 LightSample sampleLight(FrameParameters frame, Receiver receiver, vec3 n, uvec2 bits) {
     const LightPick pick = pickLight(frame, receiver, bits.x);
     const vec2 u = vec2(pick.place, bitsToUnit(bits.y));
@@ -81,7 +81,7 @@ LightSample sampleLight(FrameParameters frame, Receiver receiver, vec3 n, uvec2 
         light = sampleTriangleLight(receiver.p, u, index);
     if (sceneHas(kFeaturePunctualLights) && kind == kLightPunctual)
         light = samplePunctualLight(receiver.p, index, reach);
-    if (sceneHas(kFeatureEnvironment | kFeatureEnvironmentMap) && kind == kLightEnvironment)
+    if ((sceneHas(kFeatureEnvironment) || sceneHas(kFeatureEnvironmentMap)) && kind == kLightEnvironment)
         light = sampleEnvironment(frame, receiver.p, n, u, reach);
     light.pdf *= pick.pmf;
     return light;

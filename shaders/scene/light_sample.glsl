@@ -7,7 +7,7 @@ struct LightSample {
     vec3 radiance; // arriving from wi; of a delta light its irradiance on a plane across wi; 0: it does not shine this way
     float pdf;     // per solid angle; 1 for a delta light
     bool isDelta;  // a BSDF ray cannot find it
-    uint triangle; // id that the shadow ray ends on, or kNoTriangle
+    SurfaceId surface; // that the shadow ray ends on, or kNoSurface
 };
 
-const LightSample kNoLightSample = LightSample(vec3(0.0), vec3(0.0, 0.0, 1.0), vec3(0.0), 1.0, true, kNoTriangle);
+const LightSample kNoLightSample = LightSample(vec3(0.0), vec3(0.0, 0.0, 1.0), vec3(0.0), 1.0, true, kNoSurface);

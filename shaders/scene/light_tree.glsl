@@ -55,7 +55,7 @@ LightTreePick pickFromLightTree(Receiver receiver, float u) {
     return pick;
 }
 
-// With which pickFromLightTree picks the light at the end of `path`.
+// Probability with which pickFromLightTree picks the light at the end of `path`.
 float lightTreePmf(Receiver receiver, uint path) {
     uint reference = lightTreeRoot();
     float pmf = 1.0;

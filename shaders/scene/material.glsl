@@ -16,7 +16,7 @@ Film filmOf(MaterialRecord material) {
     return Film(material.iridescence, material.iridescenceIor, material.iridescenceThicknessMaximum);
 }
 
-// KHR_materials_anisotropy: rougher along the tangent. Both are clear of smoothness or neither is.
+// KHR_materials_anisotropy: rougher along the tangent. Both alphas are clear of smoothness or neither is.
 vec2 alphaOf(MaterialRecord material) {
     const float alpha = material.roughness * material.roughness;
     if (!sceneHas(kFeatureAnisotropy) || material.anisotropy == 0.0)
@@ -48,7 +48,7 @@ vec2 coatingOf(MaterialRecord material, vec3 dielectricF0, Specular specular) {
     return mix(vec2(largestOf(specular.f0), specular.f90), film, specular.film.weight) / opaque;
 }
 
-// isFront: as above. The frame's x axis is the direction of anisotropy.
+// isFront: wo is on the triangle's front. The frame's x axis is the direction of anisotropy.
 Surface surfaceOf(MaterialRecord material, bool isFront) {
     const float r = (material.ior - 1.0) / (material.ior + 1.0);
     const vec3 dielectricF0 = min(r * r * material.specularColor, vec3(1.0)) * material.specular;

@@ -15,13 +15,13 @@ MaterialRecord fetchMaterial(uint index) {
     const uvec4 b = materialTexel(index, 1u);
     const uvec4 c = materialTexel(index, 2u);
     const uvec4 d = materialTexel(index, 3u);
-    const uvec4 e = sceneHas(kFeatureTextures | kFeatureAlpha) ? materialTexel(index, 4u) : uvec4(0u);
-    const uvec4 f = sceneHas(kFeatureAttenuation | kFeatureDispersion) ? materialTexel(index, 5u) : uvec4(0u);
-    const uvec4 g = sceneHas(kFeatureClearcoat | kFeatureAnisotropy) ? materialTexel(index, 6u) : uvec4(0u);
+    const uvec4 e = sceneHas(kFeatureTextures) || sceneHas(kFeatureAlpha) ? materialTexel(index, 4u) : uvec4(0u);
+    const uvec4 f = sceneHas(kFeatureAttenuation) || sceneHas(kFeatureDispersion) ? materialTexel(index, 5u) : uvec4(0u);
+    const uvec4 g = sceneHas(kFeatureClearcoat) || sceneHas(kFeatureAnisotropy) ? materialTexel(index, 6u) : uvec4(0u);
     const uvec4 h = sceneHas(kFeatureSheen) ? materialTexel(index, 7u) : uvec4(0u);
-    const uvec4 i = sceneHas(kFeatureAnisotropy | kFeatureIridescence) ? materialTexel(index, 8u) : uvec4(0u);
+    const uvec4 i = sceneHas(kFeatureAnisotropy) || sceneHas(kFeatureIridescence) ? materialTexel(index, 8u) : uvec4(0u);
     const uvec4 j =
-        sceneHas(kFeatureIridescence | kFeatureDiffuseTransmission) ? materialTexel(index, 9u) : uvec4(0u);
+        sceneHas(kFeatureIridescence) || sceneHas(kFeatureDiffuseTransmission) ? materialTexel(index, 9u) : uvec4(0u);
     const uvec4 k = sceneHas(kFeatureDiffuseTransmission) ? materialTexel(index, 10u) : uvec4(0u);
     return MaterialRecord(
         uintBitsToFloat(a.xyz), uintBitsToFloat(a.w), uintBitsToFloat(b.xyz), uintBitsToFloat(b.w),

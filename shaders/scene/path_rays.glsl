@@ -1,7 +1,7 @@
 // The rays of a path: from the camera, between vertices, and to lights.
 #include "lib/camera.glsl"
 #include "scene/frame.glsl"
-#include "scene/traverse.glsl"
+#include "scene/intersect.glsl"
 
 const Path kNewPath = Path(vec3(1.0), 0.0, vec3(0.0), 1.0);
 
@@ -17,7 +17,7 @@ Ray cameraRayOf(uint slot) {
 // The closest hit; t is infinite where there is none. glTF's back-face culling is for the camera alone: light transport
 // needs closed surfaces.
 Hit trace(Ray ray, uint slot, uint bounce) {
-    const RayFilter ignored = RayFilter(bounce == 0u, ray.fromTriangle, kNoTriangle,
+    const RayFilter ignored = RayFilter(bounce == 0u, ray.fromSurface, kNoSurface,
                                         alphaSeed(keyOfSlot(slot, bounce), kDimensionAlpha));
     Hit hit;
     if (!intersectClosest(ray.origin, ray.direction, kInfinity, ignored, hit))
@@ -27,7 +27,7 @@ Hit trace(Ray ray, uint slot, uint bounce) {
 
 // Of the vertex after `bounce` others.
 bool isOccluded(ShadowRay ray, uint slot, uint bounce) {
-    const RayFilter ignored = RayFilter(false, ray.fromTriangle, ray.toTriangle,
+    const RayFilter ignored = RayFilter(false, ray.fromSurface, ray.toSurface,
                                         alphaSeed(keyOfSlot(slot, bounce + 1u), kDimensionShadowAlpha));
     return intersectAny(ray.origin, ray.direction, 1.0, ignored);
 }

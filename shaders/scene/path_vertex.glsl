@@ -41,7 +41,7 @@ float hitLightPdf(Interaction surface, Hit hit, Ray ray) {
         return 0.0;
     const Receiver receiver = unpackReceiver(ray.origin, ray.receiver);
     return lightPmf(frame, receiver, surface.emitter) *
-           triangleLightPdf(loadLeafTriangle(hit.leafTriangle), ray.origin, surface.area, hit.t * hit.t,
+           triangleLightPdf(loadTriangle(hit.record), ray.origin, surface.area, hit.t * hit.t,
                             dot(surface.ng, ray.direction));
 }
 
@@ -73,8 +73,8 @@ bool nextEvent(Vertex v, vec3 throughput, out ShadowRay shadow) {
     shadow.contribution = clamped(throughput * arriving, v.key.vertex);
     shadow.origin = offsetOrigin(v.surface.p, v.surface.pError, v.surface.ng, light.wi);
     shadow.direction = light.end - shadow.origin;
-    shadow.fromTriangle = v.surface.triangle;
-    shadow.toTriangle = light.triangle;
+    shadow.fromSurface = v.surface.id;
+    shadow.toSurface = light.surface;
     return light.pdf > 0.0 && shadow.contribution != vec3(0.0);
 }
 
@@ -83,8 +83,8 @@ bool nextRay(Vertex v, inout Path path, out Ray ray) {
     const BsdfSample next =
         sampleBsdf(v.bsdf, v.wo, sample2D(v.key, kDimensionBsdf), sample1D(v.key, kDimensionLobe));
     const vec3 wi = toWorld(v.basis, next.wi);
-    ray = Ray(offsetOrigin(v.surface.p, v.surface.pError, v.surface.ng, wi), v.surface.triangle, wi, next.wi.z,
-              v.receiver, SolidsSeen(0u, 0u, kSolidsApart));
+    ray = Ray(offsetOrigin(v.surface.p, v.surface.pError, v.surface.ng, wi), v.surface.id, wi, next.wi.z,
+              v.receiver, kNoInterior);
     path.throughput *= next.weight;
     path.bsdfPdf = next.pdf * (kMisSurvival != 0u ? v.survival : 1.0);
     path.etaScale *= next.eta * next.eta;
@@ -149,10 +149,10 @@ void noteSolids(Ray ray, Interaction surface, float distance, inout NextRays nex
     const vec3 e = surface.pError;
     const float rounding = 32.0 * max(e.x, max(e.y, e.z)); // of vertices that were transformed, too
     const bool passes = dot(next.ray.direction, surface.ng) < 0.0;
-    next.ray.solids = passes ? passSolid(ray.solids, surface.solid, surface.isFront, distance > rounding)
-                             : turnAmongSolids(ray.solids);
-    if (next.ray.solids.state == kSolidsOverlap && ray.solids.state != kSolidsOverlap)
-        next.overlap = packOverlap(next.ray.solids);
+    next.ray.interior = passes ? passSolid(ray.interior, surface.solid, surface.isFront, distance > rounding)
+                               : turnAmongSolids(ray.interior);
+    if (solidsState(next.ray.interior) == kSolidsOverlap && solidsState(ray.interior) != kSolidsOverlap)
+        next.overlap = packOverlap(next.ray.interior);
 }
 
 // The vertex where `ray` met the scene, after `bounce` others: the path collects what is emitted there, and is scattered.

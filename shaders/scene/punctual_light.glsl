@@ -28,7 +28,7 @@ LightSample samplePunctualLight(vec3 from, uint index, float reach) {
     LightSample light;
     light.pdf = 1.0;
     light.isDelta = true;
-    light.triangle = kNoTriangle;
+    light.surface = kNoSurface;
     if (record.kind == kPunctualDirectional) {
         light.wi = -record.direction;
         light.end = from + reach * light.wi;

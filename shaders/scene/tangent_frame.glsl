@@ -2,6 +2,7 @@
 #include "lib/math/octahedral.glsl"
 #include "lib/math/onb.glsl"
 #include "shared/bindings.h"
+#include "shared/surface_id.h"
 #include "shared/texture.h"
 
 layout(set = 0, binding = BINDING_TRIANGLE_TANGENTS) uniform utextureBuffer triangleTangents; // one a triangle
@@ -17,8 +18,8 @@ float bitangentSign(uint flags, uint corner) {
 
 // At barycentrics b, around the normal n that the mesh gives to its front: tangent and bitangent as interpolated, not
 // made perpendicular, which is how normal maps are baked. A mesh without tangents gets some frame.
-Basis tangentFrame(uint triangle, vec3 b, vec3 n) {
-    const TriangleTangents t = fetchTriangleTangents(triangle);
+Basis tangentFrame(SurfaceId surface, vec3 b, vec3 n) {
+    const TriangleTangents t = fetchTriangleTangents(attributeIndex(surface));
     const vec3 tangent =
         b.x * decodeOctahedral(t.t0) + b.y * decodeOctahedral(t.t1) + b.z * decodeOctahedral(t.t2);
     const float sign = b.x * bitangentSign(t.flags, 0u) + b.y * bitangentSign(t.flags, 1u) + b.z * bitangentSign(t.flags, 2u);

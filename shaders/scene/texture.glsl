@@ -48,21 +48,21 @@ vec4 drawnTexture(TextureRecord t, vec2 uv, vec2 u) {
 }
 
 // Where a point of a triangle lies in the texture; barycentrics b.
-vec2 textureCoordinates(TextureRecord t, uint triangle, vec3 b) {
-    const TriangleUvs corners = fetchTriangleUvs(triangle * t.uvTexels + t.uvTexel);
+vec2 textureCoordinates(TextureRecord t, SurfaceId surface, vec3 b) {
+    const TriangleUvs corners = fetchTriangleUvs(attributeIndex(surface) * t.uvTexels + t.uvTexel);
     const vec3 uv = vec3(b.x * corners.uv0 + b.y * corners.uv1 + b.z * corners.uv2, 1.0);
     return vec2(dot(t.uRow, uv), dot(t.vRow, uv));
 }
 
-vec4 textureAt(uint index, uint triangle, vec3 b) {
+vec4 textureAt(uint index, SurfaceId surface, vec3 b) {
     const TextureRecord t = fetchTexture(index);
-    return filteredTexture(t, textureCoordinates(t, triangle, b));
+    return filteredTexture(t, textureCoordinates(t, surface, b));
 }
 
 // As the estimator's settings ask: bilinear, or one texel of it.
-vec4 textureAt(uint index, uint triangle, vec3 b, vec2 u) {
+vec4 textureAt(uint index, SurfaceId surface, vec3 b, vec2 u) {
     const TextureRecord t = fetchTexture(index);
-    const vec2 uv = textureCoordinates(t, triangle, b);
+    const vec2 uv = textureCoordinates(t, surface, b);
     return kTextureFilter == kTextureFilterStochastic ? drawnTexture(t, uv, u) : filteredTexture(t, uv);
 }
 

@@ -66,12 +66,12 @@ void applyFrameTexel(uint slot, vec4 texel, vec3 wo, inout MaterialRecord m, ino
 // same numbers, so that where they are of one size the material is that of one texel.
 MaterialRecord texturedMaterial(MaterialRecord m, vec3 wo, SampleKey key, inout Interaction i) {
     if (sceneHas(kFeatureVertexColors))
-        m.baseColor *= vertexColor(i.triangle, i.b).rgb;
+        m.baseColor *= vertexColor(i.id, i.b).rgb;
     const vec2 u = kTextureFilter == kTextureFilterStochastic ? sample2D(key, kDimensionTexel) : vec2(0.0);
     uint index = m.firstTexture;
     for (uint slots = sceneHas(kFeatureTextures) ? m.textureSlots : 0u; slots != 0u; slots &= slots - 1u) {
         const uint slot = uint(findLSB(slots));
-        const vec4 texel = textureAt(index, i.triangle, i.b, u);
+        const vec4 texel = textureAt(index, i.id, i.b, u);
         applyBaseTexel(slot, texel, m);
         applyLayerTexel(slot, texel, m);
         if (sceneHas(kFeatureTangents))

@@ -3,7 +3,7 @@
 #include "lib/sampling/spherical_triangle.glsl"
 #include "lib/sampling/warp.glsl"
 #include "scene/alpha.glsl"
-#include "scene/leaf_triangle.glsl"
+#include "scene/triangle_record.glsl"
 #include "scene/light_sample.glsl"
 #include "scene/material.glsl"
 #include "scene/texture.glsl"
@@ -19,13 +19,13 @@ float areaToSolidAngle(float pdfArea, float distance2, float cosLight) {
 }
 
 // As seen from `from`; 0 where it is to be sampled by area.
-float largeSolidAngle(LeafTriangle t, vec3 from) {
+float largeSolidAngle(TriangleRecord t, vec3 from) {
     const float solidAngle = solidAngleOf(normalize(t.v0 - from), normalize(t.v1 - from), normalize(t.v2 - from));
     return solidAngle > kSmallestSolidAngle ? solidAngle : 0.0;
 }
 
 // Density per solid angle of finding a point of the triangle from `from`, distance and cosine as given.
-float triangleLightPdf(LeafTriangle t, vec3 from, float area, float distance2, float cosLight) {
+float triangleLightPdf(TriangleRecord t, vec3 from, float area, float distance2, float cosLight) {
     const float solidAngle = largeSolidAngle(t, from);
     if (solidAngle > 0.0)
         return 1.0 / solidAngle;
@@ -33,7 +33,7 @@ float triangleLightPdf(LeafTriangle t, vec3 from, float area, float distance2, f
 }
 
 // Barycentrics of the point of the triangle's plane in direction wi.
-vec3 barycentricsOf(LeafTriangle t, vec3 from, vec3 wi) {
+vec3 barycentricsOf(TriangleRecord t, vec3 from, vec3 wi) {
     const vec3 e1 = t.v1 - t.v0;
     const vec3 e2 = t.v2 - t.v0;
     const vec3 p = cross(wi, e2);
@@ -46,19 +46,19 @@ vec3 barycentricsOf(LeafTriangle t, vec3 from, vec3 wi) {
 }
 
 // Radiance that leaves barycentrics b of the triangle to a side, as much of it as alpha lets be.
-vec3 emissionAt(LeafTriangle t, vec3 b, bool isFront) {
+vec3 emissionAt(TriangleRecord t, vec3 b, bool isFront) {
     const MaterialRecord material = fetchMaterial(t.material & kMaterialMask);
     vec3 emission = emissionOf(material, isFront);
     if (sceneHas(kFeatureTextures) && hasTexture(material.textureSlots, kSlotEmission))
         emission *=
-            textureAt(textureIndex(material.firstTexture, material.textureSlots, kSlotEmission), t.triangle, b).rgb;
+            textureAt(textureIndex(material.firstTexture, material.textureSlots, kSlotEmission), t.surface, b).rgb;
     if (sceneHas(kFeatureAlpha) && (t.material & kAlphaBit) != 0u)
         emission *= coverageAt(t, b);
     return emission;
 }
 
-LightSample sampleTriangleLight(vec3 from, vec2 u, uint leafTriangle) {
-    const LeafTriangle t = loadLeafTriangle(leafTriangle);
+LightSample sampleTriangleLight(vec3 from, vec2 u, uint record) {
+    const TriangleRecord t = loadTriangle(record);
     vec3 b;
     if (largeSolidAngle(t, from) > 0.0) {
         const SphericalTriangle seen =
@@ -81,7 +81,7 @@ LightSample sampleTriangleLight(vec3 from, vec2 u, uint leafTriangle) {
     light.radiance = emissionAt(t, b, cosLight > 0.0);
     light.pdf = triangleLightPdf(t, from, 0.5 * twiceArea, distance2, cosLight);
     light.isDelta = false;
-    light.triangle = t.triangle;
+    light.surface = t.surface;
     if (cosLight == 0.0)
         light.radiance = vec3(0.0);
     return light;

@@ -1,5 +1,6 @@
 // Colours given at the corners of triangles.
 #include "shared/bindings.h"
+#include "shared/surface_id.h"
 #include "shared/texture.h"
 
 layout(set = 0, binding = BINDING_TRIANGLE_COLORS) uniform utextureBuffer triangleColors; // kColorTexels a triangle
@@ -15,7 +16,7 @@ TriangleColors fetchTriangleColors(uint triangle) {
 }
 
 // Linear RGBA at barycentrics b.
-vec4 vertexColor(uint triangle, vec3 b) {
-    const TriangleColors c = fetchTriangleColors(triangle);
+vec4 vertexColor(SurfaceId surface, vec3 b) {
+    const TriangleColors c = fetchTriangleColors(attributeIndex(surface));
     return b.x * unpackColor(c.c0) + b.y * unpackColor(c.c1) + b.z * unpackColor(c.c2);
 }

@@ -1,5 +1,5 @@
-// Adds up what the invocations of a kernel visited in the BVH.
-#include "scene/traverse.glsl"
+// Adds up what the invocations of a kernel visited in the accelerator.
+#include "scene/intersect.glsl"
 #include "shared/bindings.h"
 
 layout(set = 0, binding = BINDING_VISIT_COUNTS, std430) buffer Visits { VisitCounts visits; };

@@ -4,7 +4,7 @@
 
 // Scene, read only: RGBA32UI texel buffers (the fastest reads measured on lavapipe).
 #define BINDING_BVH_NODES 0
-#define BINDING_LEAF_TRIANGLES 1
+#define BINDING_TRIANGLES 1
 #define BINDING_TRIANGLE_NORMALS 2
 #define BINDING_MATERIALS 3
 #define BINDING_LIGHTS 4

@@ -1,4 +1,5 @@
-// The acceleration structure as it lies in memory: an 8-wide tree whose child boxes are quantised to 8 bits.
+// The accelerator "bvh8" as it lies in memory: an 8-wide tree whose child boxes are quantised to 8 bits. A leaf triangle is a
+// record of shared/triangle.h, in the order of the leaves.
 //
 // A node is 80 bytes, read as five RGBA32UI texels; a word has one byte for each of four children, the first lowest:
 //
@@ -23,7 +24,6 @@ LAVALIGHT_SHARED_BEGIN
 
 SHARED_CONST uint kNodeTexels = 5u;
 SHARED_CONST uint kBvhWidth = 8u;
-SHARED_CONST uint kLeafTriangleTexels = 3u;
 SHARED_CONST uint kMaxTexels = 134217728u; // Vulkan devices' usual maxTexelBufferElements, lavapipe's too
 
 // Traversal keeps a node's index and a bit for each of its children in one word.
@@ -61,24 +61,10 @@ struct BvhNode {
     uvec2 upper[3];
 };
 
-// A triangle of a leaf: 48 bytes, three texels. Front: counter-clockwise.
-struct LeafTriangle {
-    vec3 v0;
-    uint triangle; // in the scene's numbering: meshes in order, triangles in order
-    vec3 v1;
-    uint emitter; // or kNoEmitter
-    vec3 v2;
-    uint material; // index and flags: shared/scene.h
-};
-
-SHARED_CONST uint kNoEmitter = 0xffffffffu;
-SHARED_CONST uint kNeverCulledBit = 0x80000000u; // its back face is seen by camera rays too (double sided)
-
 LAVALIGHT_SHARED_END
 
 #ifdef __cplusplus
 static_assert(sizeof(lavalight::BvhNode) == 16 * lavalight::kNodeTexels);
-static_assert(sizeof(lavalight::LeafTriangle) == 16 * lavalight::kLeafTriangleTexels);
 #endif
 
 #endif

@@ -46,7 +46,8 @@ struct FrameParameters {
 #define CONSTANT_MIS_SURVIVAL 5
 #define CONSTANT_FRESNEL 6
 #define CONSTANT_FEATURES 7 // of the scene, not of the estimator (lib/features.glsl)
-#define CONSTANT_COUNT_VISITS 8 // of traversal (scene/traverse.glsl)
+#define CONSTANT_MORE_FEATURES 11 // the second word of them
+#define CONSTANT_COUNT_VISITS 8 // of traversal (scene/intersect.glsl)
 #define CONSTANT_MULTIPLE_SCATTERING 9
 #define CONSTANT_TEXTURE_FILTER 10
 

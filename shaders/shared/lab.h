@@ -14,8 +14,8 @@ LAVALIGHT_SHARED_BEGIN
 // into blocks so that sums of floats stay short.
 struct LabRun {
     uint seed;
-    uint sampleCount; // of all invocations together; the last one may have fewer than samplesEach
-    uint samplesEach; // of one invocation
+    uint sampleCount; // samples of all invocations; the last one may have fewer than samplesEach
+    uint samplesEach; // samples of one invocation
     uint blocks;      // invocations to a stream
     uint kind;        // which estimator: the constants below, by kernel
     uint variant;     // which integrand, where there are several

@@ -2,12 +2,12 @@
 #ifndef LAVALIGHT_SHARED_SCENE_H
 #define LAVALIGHT_SHARED_SCENE_H
 
-#include "shared/bvh.h"
+#include "shared/triangle.h"
 #include "shared/types.h"
 
 LAVALIGHT_SHARED_BEGIN
 
-// The material word of a leaf triangle (shared/bvh.h): the index in the low bits, flags above. Bit 31 is kNeverCulledBit.
+// The material word of a triangle (shared/triangle.h): the index in the low bits, flags above. Bit 31 is kNeverCulledBit.
 SHARED_CONST uint kMaterialMask = 0x1fffffffu;
 SHARED_CONST uint kAlphaBit = 0x20000000u; // rays may pass through: by alpha
 SHARED_CONST uint kFlatBit = 0x40000000u; // shaded with its geometric normal
@@ -86,7 +86,7 @@ struct LightRecord {
     uint alias;        // the other light of this column; of a light in the tree: bit i is set where its path leads into
                        // the second child, i levels below the root
     float pmf;         // with which the whole table picks this light, or the tree that it is in
-    uint source;       // kind in the top two bits; below: leaf triangle, or index of the punctual light
+    uint source;       // kind in the top two bits; below: triangle record, or index of the punctual light
 };
 SHARED_CONST uint kNoLight = 0xffffffffu;
 SHARED_CONST uint kLightKindShift = 30u;
@@ -126,38 +126,6 @@ SHARED_CONST uint kPunctualDirectional = 2u;
 // Below this alpha (= roughness^2) a lobe is a mirror, or a pane: at 1e-3 it is 0.1 degrees wide, and D's peak of
 // 1 / (pi alpha^2) would cost more noise than the width is worth.
 SHARED_CONST float kSmoothAlpha = 1e-3f;
-
-// What a scene may have or not: bits of the specialisation constant of lib/features.glsl.
-SHARED_CONST uint kFeatureSpecular = 1u;       // a surface that is not pure Lambert
-SHARED_CONST uint kFeatureGlass = 2u;          // a transmissive one
-SHARED_CONST uint kFeatureRoughLobes = 4u;     // such a lobe with alpha of kSmoothAlpha or more
-SHARED_CONST uint kFeatureSmoothLobes = 8u;    // with less
-SHARED_CONST uint kFeatureShadingNormals = 16u;
-SHARED_CONST uint kFeatureTriangleLights = 32u;
-SHARED_CONST uint kFeaturePunctualLights = 64u;
-SHARED_CONST uint kFeatureEnvironment = 128u;
-SHARED_CONST uint kFeatureLightTree = 256u;
-SHARED_CONST uint kFeatureTextures = 512u;
-SHARED_CONST uint kFeatureVertexColors = 1024u;
-SHARED_CONST uint kFeatureTangents = 2048u; // of normal maps and anisotropy
-SHARED_CONST uint kFeatureAlpha = 4096u;
-SHARED_CONST uint kFeatureUnlit = 8192u;
-SHARED_CONST uint kFeatureEnvironmentMap = 16384u;
-SHARED_CONST uint kFeatureAttenuation = 32768u;
-SHARED_CONST uint kFeatureDispersion = 65536u;
-SHARED_CONST uint kFeatureClearcoat = 0x20000u;
-SHARED_CONST uint kFeatureSheen = 0x40000u;
-SHARED_CONST uint kFeatureAnisotropy = 0x80000u;
-SHARED_CONST uint kFeatureIridescence = 0x100000u;
-SHARED_CONST uint kFeatureDiffuseTransmission = 0x200000u;
-SHARED_CONST uint kFeatureLens = 0x400000u; // of the camera, as the next two
-SHARED_CONST uint kFeaturePanorama = 0x800000u;
-SHARED_CONST uint kFeatureOrthographic = 0x1000000u;
-SHARED_CONST uint kFeatureLights = 0x2000000u;            // there are any
-SHARED_CONST uint kFeatureEnvironmentLight = 0x4000000u;  // the environment is among them
-SHARED_CONST uint kFeatureSolids = 0x8000000u; // two solids that may overlap
-SHARED_CONST uint kFeatureManyTriangles = 0x10000000u; // so that it pays to trace alike rays together
-SHARED_CONST uint kAllFeatures = 0x1fffffffu;
 
 // Directional albedos of the GGX lobe and of sheen, tabulated over angle and roughness (lib/bsdf/albedo_grid.glsl), row by row;
 // then the cosine-weighted averages of the GGX lobe's, kAveragesPerRow to the distance of two rows.

@@ -6,16 +6,16 @@
 
 LAVALIGHT_SHARED_BEGIN
 
-// Three texels a texture. Those of a material lie in the order of their slots.
+// A texture, three texels. A material's textures lie in the order of their slots.
 struct TextureRecord {
     vec3 uRow; // u = dot(uRow, (u, v, 1)) of the corners' coordinates, v alike
     uint flags;
     vec3 vRow;
-    uint firstWord; // of its picture; a multiple of 4
+    uint firstWord; // first word of its picture; a multiple of 4
     uint width;     // texels
     uint height;
-    uint uvTexel;  // of its coordinates among those of a triangle
-    uint uvTexels; // of a triangle, over all sets
+    uint uvTexel;  // first texel of its coordinates among a triangle's
+    uint uvTexels; // texels of a triangle's coordinates, over all sets
 };
 SHARED_CONST uint kTextureTexels = 3u;
 //   flags:  | wrap of u (2 bits, lowest) | wrap of v (2 bits) | kTexture... |
@@ -25,10 +25,10 @@ SHARED_CONST uint kWrapClamp = 2u;
 SHARED_CONST uint kWrapMask = 3u;
 SHARED_CONST uint kWrapVShift = 2u;
 SHARED_CONST uint kTextureNearest = 16u; // else bilinear
-SHARED_CONST uint kTextureSrgb = 32u;    // its colour channels; else linear
+SHARED_CONST uint kTextureSrgb = 32u;    // colour channels are sRGB signals; else linear
 SHARED_CONST uint kTexture16Bit = 64u;   // two words a texel, else one
 
-// Two texels a triangle and set.
+// Coordinates of one set at a triangle's corners, two texels.
 struct TriangleUvs {
     vec2 uv0;
     vec2 uv1;
@@ -37,7 +37,7 @@ struct TriangleUvs {
 };
 SHARED_CONST uint kUvTexels = 2u;
 
-// Two texels a triangle: linear RGBA at its corners, 16-bit unsigned normalised numbers.
+// Linear RGBA at a triangle's corners, 16-bit unsigned normalised numbers, two texels.
 struct TriangleColors {
     uvec2 c0;
     uvec2 c1;
@@ -46,7 +46,7 @@ struct TriangleColors {
 };
 SHARED_CONST uint kColorTexels = 2u;
 
-// One texel a triangle: tangents at its corners, octahedral, and the signs of their bitangents.
+// Tangents at a triangle's corners, octahedral, and the signs of their bitangents, one texel.
 struct TriangleTangents {
     uint t0;
     uint t1;

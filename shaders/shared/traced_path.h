@@ -2,6 +2,7 @@
 #ifndef LAVALIGHT_SHARED_TRACED_PATH_H
 #define LAVALIGHT_SHARED_TRACED_PATH_H
 
+#include "shared/surface_id.h"
 #include "shared/types.h"
 
 LAVALIGHT_SHARED_BEGIN
@@ -10,7 +11,7 @@ struct TracedVertex {
     vec3 position; // of the hit; of the direction, where nothing was hit
     float t;       // distance from the vertex before; infinite: nothing was hit
     vec3 throughput; // of the path before this vertex
-    uint triangle;   // id, or kNoTriangle
+    SurfaceId surface; // or kNoSurface
     vec3 emitted; // what the pixel got from this vertex's own light, or the environment's
     uint material;
     vec3 direct; // what NEE brings if its shadow ray arrives

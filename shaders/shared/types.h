@@ -10,6 +10,7 @@
 #define LAVALIGHT_SHARED_BEGIN namespace lavalight {
 #define LAVALIGHT_SHARED_END }
 #define SHARED_CONST constexpr
+#define SHARED_FUNCTION constexpr
 
 LAVALIGHT_SHARED_BEGIN
 using uint = uint32_t;
@@ -23,6 +24,7 @@ LAVALIGHT_SHARED_END
 #define LAVALIGHT_SHARED_BEGIN
 #define LAVALIGHT_SHARED_END
 #define SHARED_CONST const
+#define SHARED_FUNCTION
 #endif
 
 #endif

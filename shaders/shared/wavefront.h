@@ -2,38 +2,28 @@
 #ifndef LAVALIGHT_SHARED_WAVEFRONT_H
 #define LAVALIGHT_SHARED_WAVEFRONT_H
 
+#include "shared/interior_list.h"
+#include "shared/surface_id.h"
 #include "shared/types.h"
 
 LAVALIGHT_SHARED_BEGIN
 
 SHARED_CONST uint kWorkgroupSize = 64u;
 
-// Boundaries of volumes that a path passed through (lib/solids.glsl), by TriangleNormals::solid.
-struct SolidsSeen {
-    uint outer; // entered first; 0: none
-    uint inner; // entered within it
-    uint state; // kSolids...
-};
-SHARED_CONST uint kSolidsApart = 0u;
-SHARED_CONST uint kSolidsNested = 1u;    // within both
-SHARED_CONST uint kSolidsInnerLeft = 2u; // was within both
-SHARED_CONST uint kSolidsOverlap = 3u;   // left both: they do overlap
-
 // The ray a slot's path goes on with. The direction has unit length.
 struct Ray {
     vec3 origin;
-    uint fromTriangle; // id of the triangle that it starts on, or kNoTriangle
+    SurfaceId fromSurface; // that it starts on, or kNoSurface
     vec3 direction;
     float originCosine; // between the direction and the shading normal where it starts
     uint receiver;      // packed (scene/receiver.glsl): what the light tree was asked for there
-    SolidsSeen solids;
+    InteriorList interior; // solids that it runs through, with kFeatureSolids
 };
-SHARED_CONST uint kNoTriangle = 0xffffffffu;
 
 // Where that ray meets the scene first.
 struct Hit {
     float t; // distance; infinite: nothing was hit, and the rest is undefined
-    uint leafTriangle;
+    uint record; // of the triangle, in the order of the accelerator: scene/triangle_record.glsl tells what surface it is
     vec2 barycentrics; // b1, b2: the point is (1 - b1 - b2) v0 + b1 v1 + b2 v2
 };
 
@@ -48,9 +38,9 @@ struct Path {
 // way to the light).
 struct ShadowRay {
     vec3 origin;
-    uint fromTriangle; // ids of the triangles that it starts and ends on, or kNoTriangle
+    SurfaceId fromSurface; // that it starts on, or kNoSurface
     vec3 direction;
-    uint toTriangle;
+    SurfaceId toSurface; // that it ends on
     vec3 contribution;
     float unused;
 };

@@ -32,7 +32,8 @@ struct BuildBox {
 
 // The cheapest ways to hand a subtree to a wide tree: what Plan decides and collapsing carries out.
 struct Plan {
-    std::array<double, kBvhWidth> cost{};   // [i]: of the subtree, as at most i + 1 children of one wide node
+    std::array<double, kBvhWidth>
+        cost{}; // [i]: cost of the subtree as at most i + 1 children of one wide node
     std::array<uint8_t, kBvhWidth> roots{}; // [i]: how many children that is, 1 to i + 1
     std::array<uint8_t, kBvhWidth> share{}; // [i]: of i + 1 children, i > 0, how many come from the left
     bool isLeaf = true;                     // where the subtree is one child: a leaf of all its triangles
@@ -40,9 +41,9 @@ struct Plan {
 
 // A reference to one triangle, or an inner node with two children, which lie in the arena that made the node.
 struct BuildNode {
-    BuildBox box; // of the part of the triangles that lies in this subtree
+    BuildBox box; // around the part of the triangles that lies in this subtree
     std::array<const BuildNode*, 2> children{};
-    uint32_t triangle = 0; // of a reference
+    uint32_t triangle = 0; // id, for a reference
     uint32_t count = 1;    // references in this subtree
     Plan plan;
 };

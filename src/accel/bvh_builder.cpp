@@ -12,6 +12,7 @@
 #include "accel/presplit.h"
 #include "base/error.h"
 #include "base/log.h"
+#include "shared/triangle.h"
 
 namespace lavalight {
 
@@ -123,11 +124,11 @@ Bvh buildNonEmpty(std::span<const Triangle> triangles, const Bounds& bounds, con
 } // namespace
 
 void requireBvhFits(uint64_t leafTriangles, uint64_t nodes) {
-    if (leafTriangles * kLeafTriangleTexels > kMaxTexels)
+    if (leafTriangles * kTriangleTexels > kMaxTexels)
         throw Error(
             fmt::format("cannot build the BVH: {} leaf triangles exceed the {} that fit into a texel buffer: "
                         "simplify the scene",
-                        leafTriangles, kMaxTexels / kLeafTriangleTexels));
+                        leafTriangles, kMaxTexels / kTriangleTexels));
     static_assert(kMaxNodes * kNodeTexels <= kMaxTexels);
     if (nodes > kMaxNodes)
         throw Error(fmt::format(

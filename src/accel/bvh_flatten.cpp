@@ -26,7 +26,7 @@ double differenceUp(float a, float b) {
 // The smallest exponent, at least that of a float's last bit here, with which 255 steps from lower reach
 // upper.
 int gridExponent(float lower, float upper) {
-    constexpr int kSmallest = -126; // of normal floats: devices may take smaller ones for 0
+    constexpr int kSmallest = -126; // least exponent of normal floats: devices may take smaller ones for 0
     const float reach = std::max(std::abs(lower), std::abs(upper));
     int exponent = reach > 0.0f ? std::max(kSmallest, std::ilogb(reach) - 23) : kSmallest;
     while (std::ldexp(255.0, exponent) < differenceUp(upper, lower))
@@ -104,7 +104,7 @@ class Flattener {
     }
 
     static_assert((kBvhWidth - 1) * kMaxLeafTriangles <= kSlotOffsetMask);
-    // Returns what its slot says.
+    // Appends a child and returns what its slot says.
     uint32_t appendChild(const BvhChildren& first, const WideChild& child) {
         if (!child.isLeaf)
             return kSlotIsNode << kSlotCountShift | (appendNode() - first.firstNode);

@@ -10,7 +10,7 @@ namespace lavalight {
 
 namespace {
 
-// Of testing a node's boxes; triangleCost is relative to it.
+// Cost of testing a node's boxes; triangleCost is relative to it.
 constexpr double kNodeCost = 1.0;
 
 double leafCost(const BuildNode& node, float triangleCost) {
@@ -51,7 +51,7 @@ Plan planInner(const BuildNode& node, float triangleCost) {
     return plan;
 }
 
-// The subtree as at most `atMost` children, appended.
+// Appends the subtree as at most `atMost` children.
 void appendCheapest(const BuildNode& node, size_t atMost, std::vector<WideChild>& children) {
     const size_t roots = node.plan.roots[atMost - 1];
     if (roots == 1) {

@@ -99,7 +99,7 @@ float longestSide(const BuildBox& box) {
     return std::max({extent.x, extent.y, extent.z});
 }
 
-// `splits` cuts, shared out between the two sides of each by their lengths.
+// Makes `splits` cuts, shared out between the two sides of each by their lengths.
 void appendPieces(const Grid& grid, uint32_t triangle, const Polygon& polygon, const BuildBox& box,
                   uint32_t splits, std::vector<Fragment>& fragments) {
     const Plane plane = mainPlane(grid, box);

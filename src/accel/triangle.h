@@ -9,7 +9,7 @@
 
 namespace lavalight {
 
-// World space. The front is where v0, v1, v2 turn counter-clockwise.
+// A triangle in world space. Its front is where v0, v1, v2 turn counter-clockwise.
 struct Triangle {
     glm::vec3 v0, v1, v2;
 };

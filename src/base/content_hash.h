@@ -21,16 +21,16 @@ class ContentHash {
     ContentHash& operator=(const ContentHash&) = delete;
 
     void add(std::span<const std::byte> bytes);
-    // With its length, so that what follows cannot be taken for a part of it.
+    // Adds the length too, so that what follows cannot be taken for a part of the text.
     void add(std::string_view text);
-    // The same for the bytes of records, which must have no padding that nobody sets.
+    // Adds the bytes of records, which must have no padding that nobody sets.
     template <typename T>
     void add(const std::vector<T>& records) {
         static_assert(std::is_trivially_copyable_v<T>);
         add(std::string_view(reinterpret_cast<const char*>(records.data()), records.size() * sizeof(T)));
     }
 
-    // Of all that was added so far, as 32 hexadecimal digits.
+    // Hash of all that was added so far, as 32 hexadecimal digits.
     [[nodiscard]] std::string text() const;
 
   private:

@@ -29,7 +29,7 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kUnfinished = ".part";
 
-// Unique in this process and among processes: several renders may write into one folder.
+// A name that is unique in this process and among processes: several renders may write into one folder.
 fs::path temporaryName(const fs::path& path) {
     static std::atomic<unsigned> counter{0};
     fs::path name = path;
@@ -72,14 +72,15 @@ class Descriptor {
     int number_;
 };
 
-// Without it, a power cut soon after the renaming may leave an empty file under the final name.
+// Brings a file to the disk; else a power cut soon after the renaming may leave an empty one under the final
+// name.
 void syncContents(const fs::path& part, const fs::path& path) {
     const Descriptor file(part, O_RDONLY);
     if (!file.isOpen() || !file.sync())
         throwUnwritable(path, std::strerror(errno));
 }
 
-// The renaming itself. Some file systems cannot; then it is as durable as they make it.
+// Brings the renaming to the disk. Some file systems cannot; then it is as durable as they make it.
 void syncFolder(const fs::path& path) {
     const fs::path folder = path.parent_path();
     const Descriptor descriptor(folder.empty() ? "." : folder, O_RDONLY | O_DIRECTORY);
@@ -98,7 +99,7 @@ void requireReplaceable(const fs::path& path) {
         throwUnwritable(path, "not a regular file");
     const fs::path folder = path.parent_path();
     if (!folder.empty() && fs::status(folder, code).type() == fs::file_type::not_found)
-        throwUnwritable(path, fmt::format("there is no folder {}", folder.string()));
+        throwUnwritable(path, fmt::format("the directory {} does not exist", folder.string()));
 }
 
 } // namespace

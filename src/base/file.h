@@ -22,10 +22,11 @@ void requireRegularFile(const std::filesystem::path& path);
 void writeFileAtomically(const std::filesystem::path& path,
                          const std::function<void(const std::filesystem::path&)>& write);
 
-// The same for bytes at hand.
+// Writes `bytes` to `path`, as atomically.
 void writeFileAtomically(const std::filesystem::path& path, std::string_view bytes);
 
-// Removes what processes that were killed left behind where they wrote `path`. No other may be at it.
+// Removes what processes that were killed left behind where they wrote `path`. No other process may be
+// writing it.
 void removeUnfinished(const std::filesystem::path& path);
 
 // Throws Error unless a file can be created at `path`: asked before a long render rather than after it.

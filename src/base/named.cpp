@@ -1,4 +1,4 @@
-// By name or number.
+// The search by name or number.
 #include "base/named.h"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 
 namespace lavalight {
 
-// Neither is in the header: whoever constructs a CLI::App compiles all of CLI11, ten seconds a file.
+// Neither function is in the header: whoever constructs a CLI::App compiles all of CLI11, ten seconds a file.
 Command::Command(CLI::App& app, const std::string& name, const std::string& description)
     : parser_(*app.add_subcommand(name, description)) {}
 

@@ -19,12 +19,12 @@ class CommandLine {
     CommandLine(const CommandLine&) = delete;
     CommandLine& operator=(const CommandLine&) = delete;
 
-    // Once. The exit code where help or the version was all that was asked for, which goes to `help`. Throws
-    // UsageError, with the remedy, for what is not understood.
+    // Parses, once. Returns the exit code where help or the version was all that was asked for, which goes to
+    // `help`. Throws UsageError, with the remedy, for what is not understood.
     [[nodiscard]] std::optional<int> parse(int argc, const char* const* argv, std::ostream& help);
     // The exit code of what run() throws.
     [[nodiscard]] int failureCode() const;
-    // What the chosen command comes to.
+    // Runs the chosen command and returns its exit code.
     [[nodiscard]] int run();
 
   private:

@@ -3,8 +3,8 @@
 
 namespace lavalight {
 
-// While one lives, the first SIGINT or SIGTERM is only remembered; a second one ends the process at once. One
-// at a time.
+// While an object lives, the first SIGINT or SIGTERM is only remembered; a second one ends the process at
+// once. There may be one object at a time.
 class InterruptGuard {
   public:
     InterruptGuard();
@@ -13,7 +13,7 @@ class InterruptGuard {
     InterruptGuard& operator=(const InterruptGuard&) = delete;
 
     [[nodiscard]] bool interrupted() const;
-    // As shells say it: 130 for SIGINT, 143 for SIGTERM.
+    // The exit code as shells have it: 130 for SIGINT, 143 for SIGTERM.
     [[nodiscard]] int exitCode() const;
 };
 

@@ -27,7 +27,7 @@ void reportError(std::string message) {
     spdlog::error("{}", message);
 }
 
-// `failureCode` becomes that of the command, before it runs.
+// Runs the command line. `failureCode` becomes that of the command before the command runs.
 int parseAndRun(int argc, char** argv, int& failureCode) {
     CommandLine commandLine;
     const std::optional<int> exitCode = commandLine.parse(argc, argv, std::cout);
@@ -37,7 +37,7 @@ int parseAndRun(int argc, char** argv, int& failureCode) {
     return commandLine.run();
 }
 
-// Results may end on a full disk.
+// Flushes the results, which may end on a full disk.
 void requireResultsWritten() {
     std::cout.flush();
     if (!std::cout || std::fflush(stdout) != 0 || std::ferror(stdout) != 0)

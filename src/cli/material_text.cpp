@@ -6,7 +6,7 @@
 namespace lavalight {
 namespace {
 
-// By TextureSlot.
+// Names by TextureSlot.
 constexpr std::array<const char*, kTextureSlots> kSlotNames = {"baseColor",
                                                                "metallicRoughness",
                                                                "normal",

@@ -5,7 +5,7 @@
 
 namespace lavalight {
 
-// Draws nothing unless stderr is a terminal. Redraws at most ten times a second.
+// A bar that draws nothing unless stderr is a terminal, and redraws at most ten times a second.
 class ProgressBar {
   public:
     explicit ProgressBar(bool wanted);

@@ -7,7 +7,7 @@
 
 namespace lavalight {
 
-// FLIP of each pixel as a PNG file in heatColour()s.
+// FLIP of each pixel as a PNG file, in the colours of heatColour().
 [[nodiscard]] std::string heatmapPng(const FlipMap& flip);
 
 // One HTML file that needs no other and no network: both images with a slider between them, at several

@@ -97,7 +97,7 @@ Plane magnitudes(const Plane& x, const Plane& y) {
 Features findFeatures(const Plane& opponentLuminance, const FeatureFilters& filters) {
     Plane luminance = opponentLuminance;
     for (float& value : luminance.values)
-        value = (value + 16.0f) / 116.0f; // of YCxCz, to [0, 1]
+        value = (value + 16.0f) / 116.0f; // luminance of YCxCz, to [0, 1]
     const Plane smooth = filterRows(luminance, filters.smooth);
     return {magnitudes(filterColumns(filterRows(luminance, filters.edge), filters.smooth),
                        filterColumns(smooth, filters.edge)),
@@ -105,7 +105,7 @@ Features findFeatures(const Plane& opponentLuminance, const FeatureFilters& filt
                        filterColumns(smooth, filters.point))};
 }
 
-// Section 4.1.4: large differences share the small part of the range that kCompressed leaves.
+// The error of a difference in colour (section 4.1.4): large ones share what kCompressed leaves of the range.
 float colourError(float difference, float largest) {
     const float raised = std::pow(difference, kColourExponent);
     const float start = kCompressionStart * largest;
@@ -114,7 +114,7 @@ float colourError(float difference, float largest) {
     return kCompressed + (raised - start) / (largest - start) * (1.0f - kCompressed);
 }
 
-// Both images at one exposure; raises errors of the strip to those that it shows.
+// Displays both images at one exposure and raises the strip's errors to those that it shows.
 void raiseErrors(const Image& image, const Image& reference, const Strip& strip, const DisplayValue& display,
                  const Filters& filters, std::vector<float>& errors) {
     const Channels a = opponentPlanes(image, strip, display);

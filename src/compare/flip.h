@@ -21,26 +21,26 @@ struct FlipMap {
     [[nodiscard]] size_t worst() const; // the index of the largest error, the first of several
 };
 
-// Both take the viewing conditions that the publications assume: a screen of 3840 pixels on 0.7 m at a
-// distance of 0.7 m, 67 pixels to a degree. Negative values and NaN are black. Both throw Error if the images
-// differ in size or are empty.
+// Both functions take the viewing conditions that the publications assume: a screen of 3840 pixels on 0.7 m
+// at a distance of 0.7 m, 67 pixels to a degree. Negative values and NaN are black. Both throw Error if the
+// images differ in size or are empty.
 
-// Of linear display values in [0, 1]; others are clamped.
+// FLIP of linear display values in [0, 1]; others are clamped.
 [[nodiscard]] FlipMap flip(const Image& image, const Image& reference);
 
 // What an exposure of radiance may be, in stops; the display shows 2^stops times the radiance.
 struct ExposureRange {
     float start = 0.0f;
     float stop = 0.0f;
-    uint32_t count = 2; // evenly from start to stop
+    uint32_t count = 2; // exposures, evenly from start to stop
 };
 
-// From the exposure that takes the brightest luminance of the reference to nearly white to the one that takes
-// the median luminance there (2021, section 4).
+// The range from the exposure that takes the brightest luminance of the reference to nearly white to the one
+// that takes the median luminance there (2021, section 4).
 [[nodiscard]] ExposureRange exposureRange(const Image& reference);
 
-// Of radiance: the largest flip() that any exposure of that range shows after ACES tone mapping, pixel by
-// pixel.
+// FLIP of radiance: the largest flip() that any exposure of that range shows after ACES tone mapping, pixel
+// by pixel.
 [[nodiscard]] FlipMap flipOfRadiance(const Image& image, const Image& reference);
 
 } // namespace lavalight

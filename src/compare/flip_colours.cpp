@@ -28,8 +28,8 @@ float acesCurve(float x) {
     return x * (kA * x + kB) / (x * (kC * x + kD) + kE);
 }
 
-// CIE 15: a cube root that goes on as a line near black. The C library's power takes a third of the time of
-// its cbrt.
+// The curve of CIE 15: a cube root that goes on as a line near black. The C library's power takes a third of
+// the time of its cbrt.
 float labCurve(float x) {
     constexpr float kBreak = 6.0f / 29.0f;
     return x > kBreak * kBreak * kBreak ? std::pow(x, 1.0f / 3.0f)

@@ -35,9 +35,9 @@ class DisplayValue {
 // L*a*b* whose chroma fades with lightness.
 [[nodiscard]] glm::vec3 huntAdjustedLab(const glm::vec3& linear);
 
-// HyAB: city-block between lightness and chroma, so that large differences keep their order.
+// The distance HyAB: city-block between lightness and chroma, so that large differences keep their order.
 [[nodiscard]] float colourDifference(const glm::vec3& labA, const glm::vec3& labB);
-// The largest of the display's: of its green and its blue.
+// The largest distance between colours of the display: that of its green and its blue.
 [[nodiscard]] float largestColourDifference();
 
 } // namespace lavalight

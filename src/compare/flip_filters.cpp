@@ -21,7 +21,7 @@ constexpr Sensitivity kRedGreen{1.0f, 0.0053f};
 constexpr Sensitivity kBlueYellowWide{34.1f, 0.04f};
 constexpr Sensitivity kBlueYellowNarrow{13.5f, 0.025f};
 
-constexpr float kFeatureWidth = 0.082f; // degrees: of an edge that people detect best (2020, section 4.2)
+constexpr float kFeatureWidth = 0.082f; // degrees, of the edge that people detect best (2020, section 4.2)
 
 // Weights below this share of the middle one are no more than rounding, and are left out.
 constexpr float kNegligible = 1e-7f;
@@ -42,7 +42,7 @@ float sumOf(const Filter& filter) {
     return sum;
 }
 
-// Of middle weight 1, cut at the radius of the widest one, which is three of its standard deviations.
+// A Gaussian with a middle weight of 1, cut at three standard deviations of the widest one.
 Filter gaussian(Sensitivity sensitivity, float pixelsPerDegree) {
     const float widest = std::sqrt(kBlueYellowWide.b / (2.0f * kPi * kPi));
     const int radius = radiusOf(3.0f, widest * pixelsPerDegree);
@@ -67,7 +67,7 @@ float volume(Sensitivity sensitivity, const Filter& filter) {
     return sensitivity.a * std::sqrt(kPi / sensitivity.b) * sum * sum;
 }
 
-// Positive and negative weights apart.
+// Scales positive and negative weights apart, each to a sum of 1.
 void normaliseSigns(Filter& filter) {
     float positive = 0.0f;
     float negative = 0.0f;

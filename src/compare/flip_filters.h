@@ -30,7 +30,7 @@ struct Filter {
 struct ContrastFilters {
     Filter luminance;
     Filter redGreen;
-    Filter blueYellowNarrow; // of the second Gaussian's 2-D share; both are normalised together
+    Filter blueYellowNarrow; // the first of two Gaussians, whose 2-D shares are normalised together
     Filter blueYellowWide;
     float narrowShare = 0.0f;
     float wideShare = 0.0f;
@@ -49,7 +49,7 @@ struct FeatureFilters {
 // How many pixels around a pixel its FLIP depends on.
 [[nodiscard]] uint32_t flipReach(const ContrastFilters& contrast, const FeatureFilters& features);
 
-// Along rows, then along columns; beyond the edges the plane goes on with its outermost pixels.
+// The plane, filtered along its rows or its columns; beyond its edges it goes on with its outermost pixels.
 [[nodiscard]] Plane filterRows(const Plane& plane, const Filter& filter);
 [[nodiscard]] Plane filterColumns(const Plane& plane, const Filter& filter);
 

@@ -12,8 +12,8 @@
 namespace lavalight {
 namespace {
 
-// Of the reference's value: what the functions of another driver, exact to 2^-11 at worst (Vulkan's sine),
-// may change in the mean of many paths.
+// Share of the reference's value by which the functions of another driver, exact to 2^-11 at worst (Vulkan's
+// sine), may change the mean of many paths.
 constexpr double kRounding = 1e-4;
 
 void requireSameSize(const Image& a, const Image* b) {
@@ -61,7 +61,7 @@ Uncertainty uncertaintyOf(const Estimate& image, const Estimate& reference, size
     return u;
 }
 
-// What is summed over the pixels of a tile.
+// Sums over the pixels of a tile.
 struct Sums {
     glm::dvec3 difference{0.0};
     glm::dvec3 reference{0.0};
@@ -95,8 +95,8 @@ double absoluteZ(const Sums& sums, int c) {
     return std::isnan(z) ? std::numeric_limits<double>::infinity() : z;
 }
 
-// Any p above `atLeast` may come out as `atLeast`. Student's tails are no lighter than the normal
-// distribution's, which takes a tenth of their time and settles nearly all tests.
+// The p-value of a test; any above `atLeast` may come out as `atLeast`. Student's tails are no lighter than
+// the normal distribution's, which takes a tenth of their time and settles nearly all tests.
 double pValue(const Sums& sums, int c, double z, double atLeast) {
     if (std::abs(sums.difference[c]) <= kRounding * std::abs(sums.reference[c]))
         return 1.0;

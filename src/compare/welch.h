@@ -16,8 +16,8 @@ namespace lavalight {
 // An image that may be noisy. Without variances it counts as exact; without sample counts its variances do.
 struct Estimate {
     const Image* mean = nullptr;
-    const Image* variance = nullptr;          // of the mean; may be absent
-    std::span<const uint32_t> sampleCounts{}; // of each pixel; may be absent
+    const Image* variance = nullptr;          // variance of the mean; may be absent
+    std::span<const uint32_t> sampleCounts{}; // samples of each pixel; may be absent
 };
 
 struct WelchTest {
@@ -26,7 +26,7 @@ struct WelchTest {
     double p = 1.0;          // the smallest p-value times the number of tests (Bonferroni), at most 1
     glm::uvec2 worstTile{0}; // the first pixel (x, y) of the tile with that p
     int worstChannel = 0;    // 0, 1, 2 for R, G, B
-    float worstAbsZ = 0.0f;  // its |z|
+    float worstAbsZ = 0.0f;  // |z| of that test
 
     // The fraction of the tests with |z| below `limit`.
     [[nodiscard]] double fractionBelow(float limit) const;

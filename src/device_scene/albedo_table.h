@@ -10,15 +10,15 @@
 
 namespace lavalight {
 
-// Layout: shaders/shared/scene.h; what an entry holds: shaders/scene/albedo_table.glsl.
+// The layout is in shaders/shared/scene.h; what an entry holds, in shaders/scene/albedo_table.glsl.
 struct AlbedoTable {
     gpu::Buffer buffer;
-    std::string
-        kernelContent; // of the kernel that computed it; empty: no texels, for scenes that ask for none
+    // Hash of the kernel that computed the table; empty: no texels, for scenes that ask for none.
+    std::string kernelContent;
 };
 
-// Computed on the device by the code of shaders/kernels/albedo.comp, so that it rests on the functions that
-// shading uses.
+// Computes the table on the device by the code of shaders/kernels/albedo.comp, so that it rests on the
+// functions that shading uses.
 [[nodiscard]] AlbedoTable makeAlbedoTable(gpu::Device& device, gpu::KernelCode code);
 
 } // namespace lavalight

@@ -18,15 +18,16 @@ std::string hashOfAll(const std::vector<Records>&... records) {
 
 Fingerprints fingerprintsOf(const SceneData& scene) {
     // A member that is added must find its place below.
-    const auto& [bvh, leafTriangles, normals, materials, lights, punctuals, lightTree, textures, uvs, colors,
-                 tangents, environmentMap, environmentQuads, features] = scene;
+    const auto& [accelerator, triangles, normals, materials, lights, punctuals, lightTree, textures, uvs,
+                 colors, tangents, environmentMap, environmentQuads, features] = scene;
     const auto& [pictures, textureRecords, firstRecords] = textures;
     return {
-        {"geometry", hashOfAll(bvh.nodes, leafTriangles, normals, uvs, colors, tangents)},
+        {"geometry", hashOfAll(triangles, normals, uvs, colors, tangents)},
         {"materials", hashOfAll(materials, std::vector{features})},
         {"textures", hashOfAll(pictures, textureRecords, firstRecords)},
         {"lights", hashOfAll(lights, punctuals, lightTree)},
         {"environment map", hashOfAll(environmentMap, environmentQuads)},
+        {"accelerator", std::string(Accelerator::name())},
     };
 }
 

@@ -1,5 +1,5 @@
 // What of a scene decides the bits of an image, as hashes of what the device is given: two renders are of
-// one scene where these are equal, whatever their files are called.
+// one scene where these are equal, whatever their files are called and whoever built the tree over it.
 #pragma once
 
 #include <string>
@@ -10,9 +10,10 @@
 
 namespace lavalight {
 
-// Name of a part and its hash.
+// Name of a part and its hash, or a name.
 using Fingerprints = std::vector<std::pair<std::string, std::string>>;
 
-// The parts "geometry" (with the BVH), "materials", "textures", "lights", "environment map".
+// The parts "geometry", "materials", "textures", "lights", "environment map", and the name of the
+// "accelerator".
 [[nodiscard]] Fingerprints fingerprintsOf(const SceneData& scene);
 } // namespace lavalight

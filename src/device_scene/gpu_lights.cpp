@@ -10,15 +10,11 @@
 namespace lavalight {
 namespace {
 
-// What light number i is, in the encoding of LightRecord::source; emitters by the first leaf triangle that
-// shows them.
-std::vector<uint32_t> lightSources(const Lights& lights, const Bvh& bvh) {
-    std::vector<uint32_t> sources(lights.emitters.list.size());
-    for (size_t leaf = bvh.leafTriangles.size(); leaf-- > 0;) {
-        const uint32_t emitter = lights.emitters.emitterOfTriangle[bvh.leafTriangles[leaf]];
-        if (emitter != kNoEmitter)
-            sources[emitter] = kLightTriangle << kLightKindShift | static_cast<uint32_t>(leaf);
-    }
+// What light number i is, in the encoding of LightRecord::source; emitters by their triangles.
+std::vector<uint32_t> lightSources(const Lights& lights) {
+    std::vector<uint32_t> sources;
+    for (const Emitter& emitter : lights.emitters.list)
+        sources.push_back(kLightTriangle << kLightKindShift | emitter.triangle);
     for (uint32_t i = 0; i < lights.punctuals.size(); ++i)
         sources.push_back(kLightPunctual << kLightKindShift | i);
     if (lights.environment)
@@ -68,8 +64,8 @@ LightTreeRecord packLightTreeNode(const LightTreeNode& node, double intensitySca
 
 } // namespace
 
-std::vector<LightRecord> packLights(const Lights& lights, const Bvh& bvh) {
-    const std::vector<uint32_t> sources = lightSources(lights, bvh);
+std::vector<LightRecord> packLights(const Lights& lights) {
+    const std::vector<uint32_t> sources = lightSources(lights);
     std::vector<LightRecord> packed;
     for (uint32_t i = 0; i < lights.firstColumn; ++i) // in the tree, whose column is the last
         packed.push_back({0.0f, lights.tree.paths[i], lights.table.back().pmf, sources[i]});
@@ -77,6 +73,15 @@ std::vector<LightRecord> packLights(const Lights& lights, const Bvh& bvh) {
         packed.push_back(
             {column.probability, lights.firstColumn + column.alias, column.pmf, sources[packed.size()]});
     return packed;
+}
+
+std::vector<LightRecord> inRecords(std::vector<LightRecord> lights,
+                                   std::span<const uint32_t> recordOfTriangle) {
+    for (LightRecord& light : lights)
+        if (light.source >> kLightKindShift == kLightTriangle)
+            light.source =
+                kLightTriangle << kLightKindShift | recordOfTriangle[light.source & kLightIndexMask];
+    return lights;
 }
 
 std::vector<PunctualRecord> packPunctuals(const Scene& scene, const Lights& lights) {

@@ -1,36 +1,33 @@
 #include "device_scene/gpu_scene.h"
 
 #include "device_scene/albedo_table.h"
+#include "device_scene/gpu_lights.h"
+#include "device_scene/upload.h"
 
 namespace lavalight {
 namespace {
 
-// Lambert surfaces and mirrors never look into the table, whose kernel takes a quarter of a second to compile
-// and run.
-AlbedoTable albedoTableFor(gpu::Device& device, uint32_t features, const KernelSource& source) {
+// Lambert surfaces and mirrors never look into the table, whose kernel takes a
+// quarter of a second to compile and run.
+AlbedoTable albedoTableFor(gpu::Device& device, SceneFeatures features, const KernelSource& source) {
     const bool hasCoats = (features & (kFeatureSpecular | kFeatureClearcoat)) != 0;
     if ((hasCoats && (features & kFeatureRoughLobes) != 0) || (features & kFeatureSheen) != 0)
         return makeAlbedoTable(device, source("albedo"));
     return {{device, "albedo table", 0, gpu::BufferUse::texels}, {}};
 }
 
-template <typename T>
-gpu::Buffer uploadTexels(gpu::Device& device, const char* name, const std::vector<T>& data) {
-    static_assert(sizeof(T) % 16 == 0);
-    gpu::Buffer buffer(device, name, data.size() * sizeof(T), gpu::BufferUse::texels);
-    buffer.upload(std::span<const T>(data));
-    return buffer;
+std::vector<LightRecord> lightsInRecords(const SceneData& data) {
+    return inRecords(data.lights, data.accelerator.recordsOfTriangles(data.triangles.size()));
 }
 
 } // namespace
 
 GpuScene::GpuScene(gpu::Device& device, const SceneData& data, const KernelSource& source)
-    : features_(data.features), fingerprints_(fingerprintsOf(data)), bvhSeconds_(data.bvh.buildSeconds),
-      nodes_(uploadTexels(device, "BVH nodes", data.bvh.nodes)),
-      leafTriangles_(uploadTexels(device, "leaf triangles", data.leafTriangles)),
+    : features_(data.features), fingerprints_(fingerprintsOf(data)),
+      accelerator_(device, data.accelerator, data.triangles),
       normals_(uploadTexels(device, "triangle normals", data.normals)),
       materials_(uploadTexels(device, "materials", data.materials)),
-      lights_(uploadTexels(device, "lights", data.lights)),
+      lights_(uploadTexels(device, "lights", lightsInRecords(data))),
       punctuals_(uploadTexels(device, "punctual lights", data.punctuals)),
       lightTree_(uploadTexels(device, "light tree", data.lightTree)),
       pictures_(uploadTexels(device, "pictures", data.textures.pictures)),
@@ -43,8 +40,7 @@ GpuScene::GpuScene(gpu::Device& device, const SceneData& data, const KernelSourc
       albedoTable_(albedoTableFor(device, data.features, source)) {}
 
 void GpuScene::addTo(gpu::ResourceTable& resources) const {
-    resources.set("bvhNodes", nodes_);
-    resources.set("leafTriangles", leafTriangles_);
+    accelerator_.addTo(resources);
     resources.set("triangleNormals", normals_);
     resources.set("materials", materials_);
     resources.set("lights", lights_);
@@ -61,7 +57,7 @@ void GpuScene::addTo(gpu::ResourceTable& resources) const {
 }
 
 uint64_t GpuScene::bytes() const {
-    return nodes_.bytes() + leafTriangles_.bytes() + normals_.bytes() + materials_.bytes() + lights_.bytes() +
+    return accelerator_.bytes() + normals_.bytes() + materials_.bytes() + lights_.bytes() +
            punctuals_.bytes() + lightTree_.bytes() + pictures_.bytes() + textures_.bytes() + uvs_.bytes() +
            colors_.bytes() + tangents_.bytes() + environmentMap_.bytes() + environmentQuads_.bytes() +
            albedoTable_.buffer.bytes();

@@ -1,10 +1,11 @@
-// A scene on the device: BVH, triangles and their attributes, materials, textures and lights, each uploaded
-// once.
+// A scene on the device: accelerator, attributes of triangles, materials,
+// textures and lights, each uploaded once.
 #pragma once
 
 #include <cstdint>
 #include <utility>
 
+#include "device_scene/accelerator.h"
 #include "device_scene/albedo_table.h"
 #include "device_scene/fingerprint.h"
 #include "device_scene/scene_data.h"
@@ -27,18 +28,16 @@ class GpuScene {
     void setAlbedoTable(AlbedoTable table) { albedoTable_ = std::move(table); }
 
     // What it has: kFeature...
-    [[nodiscard]] uint32_t features() const { return features_; }
+    [[nodiscard]] SceneFeatures features() const { return features_; }
     // Of what was uploaded.
     [[nodiscard]] const Fingerprints& fingerprints() const { return fingerprints_; }
-    [[nodiscard]] double bvhSeconds() const { return bvhSeconds_; }
+    [[nodiscard]] const Accelerator& accelerator() const { return accelerator_; }
     [[nodiscard]] uint64_t bytes() const;
 
   private:
-    uint32_t features_;
+    SceneFeatures features_;
     Fingerprints fingerprints_;
-    double bvhSeconds_;
-    gpu::Buffer nodes_;
-    gpu::Buffer leafTriangles_;
+    Accelerator accelerator_;
     gpu::Buffer normals_;
     gpu::Buffer materials_;
     gpu::Buffer lights_;

@@ -10,7 +10,7 @@
 namespace lavalight {
 
 struct PackedTextures {
-    std::vector<uvec4> pictures; // those that materials show: four words an element
+    std::vector<uvec4> pictures; // the pictures that materials show, four words an element
     std::vector<TextureRecord> records;
     std::vector<uint32_t> firstRecords; // per material
 };
@@ -18,15 +18,15 @@ struct PackedTextures {
 // Throws Error, with the figures, for more texels than a buffer of the device has room for.
 [[nodiscard]] PackedTextures packTextures(const Scene& scene);
 
-// Bit i: the material has a texture in slot i.
+// The slots in which the material has a texture: bit i for slot i.
 [[nodiscard]] uint32_t textureSlots(const Material& material);
 
-// Per triangle: all sets that textures ask for; a set that a mesh has not is 0. Throws Error as packTextures
-// does.
+// Coordinates per triangle: all sets that textures ask for; a set that a mesh has not is 0. Throws Error as
+// packTextures does.
 [[nodiscard]] std::vector<TriangleUvs> packUvs(const Scene& scene);
-// Per triangle; white for meshes without.
+// Vertex colours per triangle; white for meshes without.
 [[nodiscard]] std::vector<TriangleColors> packColors(const Scene& scene);
-// Per triangle; kNoTangents for meshes without.
+// Tangents per triangle; kNoTangents for meshes without.
 [[nodiscard]] std::vector<TriangleTangents> packTangents(const Scene& scene);
 
 } // namespace lavalight

@@ -40,13 +40,13 @@ std::vector<uint32_t> materialWords(const Scene& scene) {
     return words;
 }
 
-std::vector<LeafTriangle> packLeafTriangles(const Bvh& bvh, std::span<const Triangle> triangles,
-                                            const Emitters& emitters, std::span<const uint32_t> materials) {
-    std::vector<LeafTriangle> packed;
-    packed.reserve(bvh.leafTriangles.size());
-    for (const uint32_t id : bvh.leafTriangles) {
+std::vector<TriangleRecord> packTriangles(std::span<const Triangle> triangles, const Emitters& emitters,
+                                          std::span<const uint32_t> materials) {
+    std::vector<TriangleRecord> packed;
+    packed.reserve(triangles.size());
+    for (uint32_t id = 0; id < triangles.size(); ++id) {
         const Triangle& t = triangles[id];
-        packed.push_back({t.v0, id, t.v1, emitters.emitterOfTriangle[id], t.v2, materials[id]});
+        packed.push_back({t.v0, {id}, t.v1, emitters.emitterOfTriangle[id], t.v2, materials[id]});
     }
     return packed;
 }
@@ -163,11 +163,11 @@ SceneData packScene(const Scene& scene, const Lights& lights) {
     SceneData data;
     data.features = sceneFeatures(scene, lights);
     packSurfaceDetail(scene, data);
-    data.bvh = buildBvh(triangles);
-    data.leafTriangles = packLeafTriangles(data.bvh, triangles, lights.emitters, materialWords(scene));
+    data.accelerator = buildAccelerator(triangles);
+    data.triangles = packTriangles(triangles, lights.emitters, materialWords(scene));
     data.normals = packNormals(scene);
     data.materials = packMaterials(scene, data.textures.firstRecords);
-    data.lights = packLights(lights, data.bvh);
+    data.lights = packLights(lights);
     data.punctuals = packPunctuals(scene, lights);
     data.lightTree = packLightTree(lights.tree, scene.bounds.radius());
     if (lights.environmentMap) {

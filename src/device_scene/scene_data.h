@@ -4,22 +4,23 @@
 #include <cstdint>
 #include <vector>
 
-#include "accel/bvh.h"
+#include "device_scene/accelerator.h"
 #include "device_scene/gpu_textures.h"
 #include "light/environment.h"
 #include "light/lights.h"
 #include "scene/scene.h"
-#include "shared/bvh.h"
+#include "shared/features.h"
 #include "shared/scene.h"
+#include "shared/triangle.h"
 
 namespace lavalight {
 
 struct SceneData {
-    Bvh bvh;
-    std::vector<LeafTriangle> leafTriangles;
+    AcceleratorData accelerator;
+    std::vector<TriangleRecord> triangles; // in the scene's numbering
     std::vector<TriangleNormals> normals;
     std::vector<MaterialRecord> materials;
-    std::vector<LightRecord> lights;
+    std::vector<LightRecord> lights; // of emissive triangles: numbers of these, not of records
     std::vector<PunctualRecord> punctuals;
     std::vector<LightTreeRecord> lightTree;
     // Empty where the scene has no such feature:
@@ -29,11 +30,11 @@ struct SceneData {
     std::vector<TriangleTangents> tangents;
     std::vector<glm::vec4> environmentMap; // per cell of light/environment.h
     std::vector<EnvironmentQuad> environmentQuads;
-    uint32_t features; // kFeature...
+    SceneFeatures features = 0; // kFeature...
 };
 
-// Builds the BVH and packs everything; no device is needed. `lights` are the scene's. Throws Error for more
-// triangles than memory could hold.
+// Builds the accelerator and packs everything; no device is needed. `lights`
+// are the scene's. Throws Error for more triangles than memory could hold.
 [[nodiscard]] SceneData packScene(const Scene& scene, const Lights& lights);
 // With its own environment, and lights picked by power.
 [[nodiscard]] SceneData packScene(const Scene& scene);

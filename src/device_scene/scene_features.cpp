@@ -5,45 +5,48 @@
 
 #include "device_scene/gpu_textures.h"
 #include "scene/coverage.h"
+#include "shared/frame.h"
 #include "shared/scene.h"
 
 namespace lavalight {
 namespace {
 
-// From where rays cost so much that the fused kernel gains by putting paths by (docs/performance.md).
+// From where rays cost so much that the fused kernel gains by putting paths by
+// (docs/performance.md).
 constexpr uint64_t kManyTriangles = 10000;
 
 bool has(const Material& material, TextureSlot slot) {
     return material.texture(slot).has_value();
 }
 
-// A texture makes a rough lobe smooth at some points; a smooth one it leaves smooth.
-uint32_t lobeOf(float roughness, bool isTextured) {
+// A texture makes a rough lobe smooth at some points; a smooth one it leaves
+// smooth.
+SceneFeatures lobeOf(float roughness, bool isTextured) {
     const bool isSmooth = roughness * roughness < kSmoothAlpha;
     return (isSmooth || isTextured ? kFeatureSmoothLobes : 0u) | (isSmooth ? 0u : kFeatureRoughLobes);
 }
 
-// A texture makes no metal of what is none, but other things of metals.
+// Whether some point may be glass. A texture makes no metal of what is none, but other things of metals.
 bool isGlass(const Material& material) {
     const bool isMetal = material.metallic >= 1.0f && !has(material, TextureSlot::metallicRoughness);
     return !isMetal && material.transmission > 0.0f;
 }
 
-// Of the specular and the glass lobe.
-uint32_t lobesOf(const Material& material) {
+// Features of the specular and the glass lobe.
+SceneFeatures lobesOf(const Material& material) {
     const bool isSpecular = material.metallic > 0.0f || material.specular > 0.0f;
     if (!isSpecular && !isGlass(material))
         return 0;
-    uint32_t features = (isSpecular ? kFeatureSpecular : 0u) | (isGlass(material) ? kFeatureGlass : 0u);
+    SceneFeatures features = (isSpecular ? kFeatureSpecular : 0u) | (isGlass(material) ? kFeatureGlass : 0u);
     features |= lobeOf(material.roughness, has(material, TextureSlot::metallicRoughness));
     if (material.isGlossiness && has(material, TextureSlot::specularColor))
         features |= kFeatureRoughLobes | kFeatureSmoothLobes;
     return features;
 }
 
-// Of the layers and lobes that extensions add.
-uint32_t extendedLobesOf(const Material& material) {
-    uint32_t features = 0;
+// Features of the layers and lobes that extensions add.
+SceneFeatures extendedLobesOf(const Material& material) {
+    SceneFeatures features = 0;
     if (material.clearcoat > 0.0f)
         features |= kFeatureClearcoat |
                     lobeOf(material.clearcoatRoughness, has(material, TextureSlot::clearcoatRoughness));
@@ -74,8 +77,8 @@ bool wantsTangents(const Material& material) {
            material.anisotropy > 0.0f;
 }
 
-uint32_t featuresOf(const Material& material) {
-    uint32_t features = lobesOf(material) | extendedLobesOf(material);
+SceneFeatures featuresOf(const Material& material) {
+    SceneFeatures features = lobesOf(material) | extendedLobesOf(material);
     features |= textureSlots(material) != 0 ? kFeatureTextures : 0u;
     features |= wantsTangents(material) ? kFeatureTangents : 0u;
     features |= material.isUnlit ? kFeatureUnlit : 0u;
@@ -83,7 +86,7 @@ uint32_t featuresOf(const Material& material) {
     return features;
 }
 
-uint32_t featuresOf(const Mesh& mesh) {
+SceneFeatures featuresOf(const Mesh& mesh) {
     return (mesh.normals.empty() ? 0u : kFeatureShadingNormals) |
            (mesh.colors.empty() ? 0u : kFeatureVertexColors);
 }
@@ -109,8 +112,8 @@ bool solidsMayOverlap(const Scene& scene) {
     return false;
 }
 
-uint32_t sceneFeatures(const Scene& scene, const Lights& lights) {
-    uint32_t features = 0;
+SceneFeatures sceneFeatures(const Scene& scene, const Lights& lights) {
+    SceneFeatures features = 0;
     std::vector<bool> isWorn(scene.materials.size(), false);
     for (const Mesh& mesh : scene.meshes) {
         features |= featuresOf(mesh);
@@ -133,7 +136,7 @@ uint32_t sceneFeatures(const Scene& scene, const Lights& lights) {
     return features;
 }
 
-uint32_t cameraFeatures(const Camera& camera) {
+SceneFeatures cameraFeatures(const Camera& camera) {
     switch (camera.projection) {
     case Projection::perspective:
         return camera.lensRadius > 0.0f ? kFeatureLens : 0u;
@@ -143,6 +146,11 @@ uint32_t cameraFeatures(const Camera& camera) {
         return kFeaturePanorama;
     }
     return 0;
+}
+
+std::array<gpu::SpecialisationConstant, 2> featureConstants(SceneFeatures features) {
+    return {{{CONSTANT_FEATURES, static_cast<uint32_t>(features)},
+             {CONSTANT_MORE_FEATURES, static_cast<uint32_t>(features >> 32u)}}};
 }
 
 } // namespace lavalight

@@ -52,11 +52,12 @@ std::string labelOf(std::string_view key) {
     return std::string(key.starts_with(kContent) ? key.substr(kContent.size()) : key);
 }
 
-// Hashes are told apart by their first digits.
+// Hashes are told apart by their first digits; the accelerator's is a name.
 std::string shown(std::string_view key, const std::string& value) {
     if (value.empty())
         return std::string(kNoValue);
-    return key.starts_with(kContent) ? fmt::format("content {}", value.substr(0, 8)) : value;
+    const bool isHash = key.starts_with(kContent) && labelOf(key) != "accelerator";
+    return isHash ? fmt::format("content {}", value.substr(0, 8)) : value;
 }
 
 } // namespace

@@ -15,8 +15,9 @@ struct FilmHeader {
 };
 
 // What differs between two headers of what decides the bits of samples, with both values, in one line:
-// version, device, settings, scene, view, shaders. Empty if nothing does. Where the content of the scene
-// differs, so may its name, which alone does not count; `alsoDecisive`: names of further options that do.
+// version, device, settings, scene, view, shaders, accelerator. Empty if nothing does. Where the content of
+// the scene differs, so may its name, which alone does not count; `alsoDecisive`: names of further options
+// that do.
 [[nodiscard]] std::string differences(const FilmHeader& a, const FilmHeader& b,
                                       const std::vector<std::string>& alsoDecisive = {});
 

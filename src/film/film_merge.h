@@ -1,4 +1,4 @@
-// Joins films of one image whose samples are others.
+// Joins films that hold different samples of one image.
 #pragma once
 
 #include <string>

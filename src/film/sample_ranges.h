@@ -16,18 +16,18 @@ struct SampleRange {
     bool operator==(const SampleRange&) const = default;
 };
 
-// Ascending, apart from each other, none empty.
+// Ranges in ascending order, apart from each other, none empty.
 using SampleRanges = std::vector<SampleRange>;
 
-// "0:16,32:64".
+// Ranges as text and back: "0:16,32:64".
 [[nodiscard]] std::string textOf(const SampleRanges& ranges);
 [[nodiscard]] std::optional<SampleRanges> parseSampleRanges(std::string_view text);
 
 [[nodiscard]] uint32_t countOf(const SampleRanges& ranges);
 
-// A range that both hold samples of.
+// A range of samples that both hold.
 [[nodiscard]] std::optional<SampleRange> overlapOf(const SampleRanges& a, const SampleRanges& b);
-// All of both, which must not overlap; neighbours become one.
+// The ranges of both, which must not overlap; neighbours become one.
 [[nodiscard]] SampleRanges unionOf(const SampleRanges& a, const SampleRanges& b);
 
 } // namespace lavalight

@@ -7,7 +7,7 @@ namespace lavalight {
 
 enum class StopReason { samples, time, targetError, interrupted };
 
-// The word for it in reports: "samples", "time", "target-error" or "interrupted".
+// The reason's word in reports: "samples", "time", "target-error" or "interrupted".
 [[nodiscard]] std::string_view nameOf(StopReason reason);
 
 } // namespace lavalight

@@ -103,9 +103,9 @@ Scene import(const GltfSource& source, std::string_view bytes, const ImportOptio
         document.variant = findVariant(document.variants, options.variant, document.source);
         return buildScene(document, options);
     } catch (const std::bad_alloc&) {
-        throw gltfError(source.name, "the memory does not suffice");
+        throw gltfError(source.name, "out of memory");
     } catch (const std::length_error&) {
-        throw gltfError(source.name, "the memory does not suffice");
+        throw gltfError(source.name, "out of memory");
     }
 }
 

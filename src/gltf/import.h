@@ -17,7 +17,7 @@ namespace lavalight {
 // extension that is not supported.
 [[nodiscard]] Scene importGltf(const std::filesystem::path& path, const ImportOptions& options = {});
 
-// The same for bytes at hand; they cannot refer to other files. `name` stands for the file in messages.
+// Imports a file that is in memory; it cannot refer to other files. `name` stands for the file in messages.
 [[nodiscard]] Scene importGltf(const std::string& name, std::string_view bytes,
                                const ImportOptions& options = {});
 

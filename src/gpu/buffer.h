@@ -26,9 +26,9 @@ class Buffer {
     [[nodiscard]] uint64_t bytes() const { return bytes_; }
     [[nodiscard]] BufferUse use() const { return use_; }
 
-    // Host to device and back, waiting for the copy; through a staging buffer where the memory cannot be
-    // mapped, or is slow to read. Not while a submission that uses the buffer is running. `data` must not
-    // exceed the buffer.
+    // Copy from host to device and back, and wait for it; through a staging buffer where the memory cannot be
+    // mapped, or is slow to read. No submission that uses the buffer may be running. `data` must not exceed
+    // the buffer.
     void upload(std::span<const std::byte> data);
     void download(std::span<std::byte> data) const;
 

@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cstdlib>
 
-#include <spdlog/spdlog.h>
+#include <fmt/format.h>
 
 namespace lavalight::gpu {
 namespace {
@@ -137,8 +136,8 @@ void Commands::wait() {
         return;
     isRunning_ = false; // a failure leaves the queue idle, too
     checked("run", "a submission", [&] {
-        if (!waitForFence())
-            endProcess();
+        while (!waitForFence())
+            reportTimeout();
     });
     collectTimes();
 }
@@ -164,11 +163,9 @@ bool Commands::waitForFence() const {
     }
 }
 
-void Commands::endProcess() const {
-    spdlog::error("kernel {} has not come back within {} s (--kernel-timeout)", unfinishedKernel(),
-                  device_->kernelTimeout());
-    spdlog::default_logger()->flush();
-    std::_Exit(1);
+void Commands::reportTimeout() const {
+    device_->reportKernelTimeout(fmt::format("kernel {} has not come back within {} s (--kernel-timeout)",
+                                             unfinishedKernel(), device_->kernelTimeout()));
 }
 
 std::string Commands::unfinishedKernel() const {

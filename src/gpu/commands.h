@@ -35,9 +35,9 @@ class Commands {
 
     // Starts recording anew, once what was submitted before is done.
     void begin();
-    // `groups` workgroups along x; push constants must be as long as the kernel declares.
+    // Records `groups` workgroups along x; push constants must be as long as the kernel declares.
     void dispatch(const BoundKernel& kernel, uint32_t groups, std::span<const std::byte> pushConstants = {});
-    // Workgroup counts are read from `sizes` (three uint32) at `offset` bytes.
+    // Records a dispatch whose workgroup counts are read from `sizes` (three uint32) at `offset` bytes.
     void dispatchIndirect(const BoundKernel& kernel, const Buffer& sizes, uint64_t offset,
                           std::span<const std::byte> pushConstants = {});
     // Sets every 32-bit word of `buffer`.
@@ -47,9 +47,7 @@ class Commands {
     // live until wait(). Throws Error where the device fails or is lost.
     void submit();
     // Returns when what was submitted is done. Throws Error as above.
-    // Where it takes longer than the device's kernelTimeout, the process ends at once with a message and exit
-    // code 1: what a device works on cannot be taken back from it, so that there is no way to go on, or to
-    // clean up.
+    // Where it takes longer than the device's kernelTimeout, DeviceConfig::onKernelTimeout is called.
     void wait();
     void submitAndWait() {
         submit();
@@ -66,7 +64,7 @@ class Commands {
     void mark(const std::string& kernel);
     void waitUntilIdle() const;
     [[nodiscard]] bool waitForFence() const;
-    [[noreturn]] void endProcess() const;
+    void reportTimeout() const;
     [[nodiscard]] std::string unfinishedKernel() const;
     void collectTimes();
 
@@ -75,14 +73,14 @@ class Commands {
     std::vector<vk::raii::CommandBuffer> buffers_; // exactly one
     vk::raii::Fence fence_ = nullptr;
     std::vector<vk::raii::Event> marks_; // set when a kernel of the submission is done, in order
-    std::vector<std::string> marked_;    // its name
+    std::vector<std::string> marked_;    // names of the kernels of these marks
     bool isRunning_ = false;
     vk::raii::QueryPool queries_ = nullptr;
     std::vector<std::string> stamps_; // the name whose work ends at timestamp i; empty: not a kernel
     KernelTimes times_;
 };
 
-// One-shot copy of the first `bytes` bytes.
+// Copies the first `bytes` bytes, once.
 void copyAndWait(Device& device, const Buffer& from, const Buffer& to, uint64_t bytes);
 
 } // namespace lavalight::gpu

@@ -52,7 +52,8 @@ std::vector<DeviceDescription> listDevices() {
 }
 
 Device::Device(const DeviceConfig& config)
-    : instance_(config.validate), kernelTimeout_(config.kernelTimeout), stagesBuffers_(config.stagesBuffers) {
+    : instance_(config.validate), kernelTimeout_(config.kernelTimeout),
+      onKernelTimeout_(config.onKernelTimeout), stagesBuffers_(config.stagesBuffers) {
     std::vector<vk::raii::PhysicalDevice> devices = instance_.physicalDevices();
     const std::vector<DeviceDescription> descriptions = describeAll(devices);
     const uint32_t chosen = chooseDevice(descriptions, config);

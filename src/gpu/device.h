@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -22,7 +23,11 @@ struct DeviceConfig {
     std::string wanted; // index or part of a name; empty: the first usable, GPUs first
     RequiredDevice required = RequiredDevice::any; // refuse to run on anything else
     bool validate = false;                         // Khronos validation layer with synchronisation checks
-    double kernelTimeout = 300.0; // seconds that a submission may take (Commands::submitAndWait); 0: any
+    double kernelTimeout = 300.0;                  // seconds that a submission may take; 0: any
+    // Called with a message that names the kernel when a submission takes longer. What a device works on
+    // cannot be taken back from it, so there is no way to clean up: a program that has to end ends here.
+    // Where the function returns, or there is none, the wait goes on.
+    std::function<void(const std::string& message)> onKernelTimeout{};
     // What other devices make necessary, asked of any device: for tests.
     bool stagesBuffers = false; // copies to and from buffers, whose memory is never mapped but for readback
     bool storesTexels = false;  // puts texels into storage buffers
@@ -98,12 +103,16 @@ class Device {
 
     [[nodiscard]] const DeviceDescription& description() const { return description_; }
     [[nodiscard]] const DeviceLimits& limits() const { return limits_; }
-    // As Instance has them.
+    // Messages of the validation layer (Instance).
     [[nodiscard]] std::vector<std::string> validationMessages() const {
         return instance_.validationMessages();
     }
     void requireNoValidationMessages() const { instance_.requireNoValidationMessages(); }
     [[nodiscard]] double kernelTimeout() const { return kernelTimeout_; } // seconds; 0: none
+    void reportKernelTimeout(const std::string& message) const {
+        if (onKernelTimeout_)
+            onKernelTimeout_(message);
+    }
 
     // Bytes of the buffers alive now, and the most there ever were.
     [[nodiscard]] uint64_t allocatedBytes() const { return allocatedBytes_; }
@@ -132,6 +141,7 @@ class Device {
     vk::PhysicalDeviceMemoryProperties memory_;
     uint32_t queueFamily_ = 0;
     double kernelTimeout_;
+    std::function<void(const std::string& message)> onKernelTimeout_;
     DeviceDescription description_;
     DeviceLimits limits_;
     uint64_t allocatedBytes_ = 0;

@@ -41,7 +41,7 @@ std::string lowerCase(std::string text) {
     return text;
 }
 
-// Empty: `device` is what `config` asks for.
+// Why `device` is not what `config` asks for; empty: it is.
 std::vector<std::string> unwanted(const DeviceDescription& device, const DeviceConfig& config) {
     std::vector<std::string> reasons = device.refusals;
     if (config.required == RequiredDevice::cpu && !device.isCpu)

@@ -12,7 +12,7 @@ namespace lavalight::gpu {
 
 class Instance {
   public:
-    // `validate`: with the Khronos validation layer and its checks of synchronisation. Throws Error where
+    // `validate` adds the Khronos validation layer and its checks of synchronisation. Throws Error where
     // there is no Vulkan loader, driver, layer or extension of that name.
     explicit Instance(bool validate, std::span<const char* const> extensions = {});
     ~Instance();
@@ -24,7 +24,7 @@ class Instance {
 
     // What the validation layer said so far, oldest first. Empty without `validate`.
     [[nodiscard]] std::vector<std::string> validationMessages() const;
-    // Throws Error with the first of them, if there is any.
+    // Throws Error with the first of these messages, if there is any.
     void requireNoValidationMessages() const;
 
   private:

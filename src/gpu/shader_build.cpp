@@ -26,7 +26,7 @@ class OnceIncluder : public glslang::TShader::Includer {
         std::optional<ShaderText> file = files_(path);
         if (!file)
             return nullptr;
-        if (!seen_.insert(std::filesystem::path(path).lexically_normal().string()).second)
+        if (!seen_.insert(std::filesystem::path(file->name).lexically_normal().string()).second)
             file->text.clear();
         const auto& kept = texts_.emplace_back(std::make_unique<ShaderText>(std::move(*file)));
         auto& result = results_.emplace_back(
@@ -149,9 +149,10 @@ KernelCode compileKernel(const ShaderText& source, const ShaderFiles& includes) 
     return code;
 }
 
-KernelCode compileKernel(const std::filesystem::path& file, const std::filesystem::path& includeRoot) {
+KernelCode compileKernel(const std::filesystem::path& file, const std::filesystem::path& includeRoot,
+                         const ResolveInclude& resolve) {
     return compileKernel({file.string(), readFile(file)}, [&](const std::string& path) {
-        const std::filesystem::path included = includeRoot / path;
+        const std::filesystem::path included = includeRoot / (resolve ? resolve(path) : path);
         return std::filesystem::is_regular_file(included)
                    ? std::optional<ShaderText>({included.string(), readFile(included)})
                    : std::nullopt;

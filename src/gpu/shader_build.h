@@ -44,8 +44,12 @@ using ShaderFiles = std::function<std::optional<ShaderText>(const std::string& p
 // compiler's message, file names and line numbers.
 [[nodiscard]] KernelCode compileKernel(const ShaderText& source, const ShaderFiles& includes);
 
+// Which file an included path stands for, where that is not the path itself.
+using ResolveInclude = std::function<std::string(const std::string& path)>;
+
 // The same for files of a folder: the entry point, and the root of all that it includes.
 [[nodiscard]] KernelCode compileKernel(const std::filesystem::path& file,
-                                       const std::filesystem::path& includeRoot);
+                                       const std::filesystem::path& includeRoot,
+                                       const ResolveInclude& resolve = {});
 
 } // namespace lavalight::gpu

@@ -7,18 +7,19 @@
 
 namespace lavalight::gpu {
 
-// layout(constant_id = id) const uint/int/bool/float in the shader; floats as their bits.
+// The value of a constant that a shader declares as layout(constant_id = id) const uint/int/bool/float;
+// floats as their bits.
 struct SpecialisationConstant {
     uint32_t id = 0;
     uint32_t value = 0;
     bool operator==(const SpecialisationConstant&) const = default;
 };
 
-// The same kernel with its functions inlined, but for those that return early, and without the loads
-// and stores that this makes needless. Takes a second for the largest kernel, so it is for the build;
-// lavapipe then goes through the code in two fifths to two thirds of the time, and what it makes of it
-// renders as fast. More passes would cost: functions brought to a single return, or values in SSA form,
-// render slower by a tenth (docs/performance.md). Throws Error.
+// A kernel with its functions inlined, but for those that return early, and without the loads and stores that
+// this makes needless. Takes a second for the largest kernel, so it is for the build; lavapipe then goes
+// through the code in two fifths to two thirds of the time, and what it makes of it renders as fast. More
+// passes would cost: functions brought to a single return, or values in SSA form, render slower by a tenth
+// (docs/performance.md). Throws Error.
 [[nodiscard]] std::vector<uint32_t> inlined(const std::vector<uint32_t>& spirv);
 
 // SPIR-V whose specialisation constants have those values, without the code that they switch off. Takes 0.1 s

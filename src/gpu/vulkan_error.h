@@ -9,7 +9,7 @@
 
 namespace lavalight::gpu {
 
-// No call of the device will succeed any more.
+// The device is lost: no call of it will succeed any more.
 class DeviceLost : public Error {
   public:
     using Error::Error;

@@ -22,7 +22,7 @@ namespace {
 
 constexpr uint32_t kSeveralParts = 0x1000; // a flag of the version
 constexpr size_t kLongestName = 255;
-constexpr uint64_t kChannelBytes = 16; // of a channel behind its name
+constexpr uint64_t kChannelBytes = 16; // bytes of a channel behind its name
 
 struct FixedType {
     std::string_view name;
@@ -80,7 +80,7 @@ class HeaderWalk {
     }
 
   private:
-    // Returns whether it has no attributes.
+    // Walks a header and returns whether it has no attributes.
     bool header() {
         bool isEmpty = true;
         for (std::string name = word(); !name.empty(); name = word()) {
@@ -103,7 +103,7 @@ class HeaderWalk {
                                     printable(name), printable(type), size, at_ - start));
     }
 
-    // Goes on to where the value ends, as its type has it.
+    // Goes on to where the value ends by its type.
     void value(std::string_view type, uint64_t size) {
         if (type == "chlist") {
             while (!word().empty())
@@ -153,7 +153,7 @@ class HeaderWalk {
 
     std::ifstream file_;
     uint64_t end_;    // bytes of the file
-    uint64_t at_ = 0; // from its start
+    uint64_t at_ = 0; // bytes from its start
 };
 
 } // namespace

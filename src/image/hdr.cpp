@@ -78,7 +78,7 @@ Number parse(std::string_view text, const char* what) {
     Number value{};
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc() || end != text.data() + text.size())
-        throw Error(fmt::format("its {} is no number", what));
+        throw Error(fmt::format("its {} is not a number", what));
     return value;
 }
 
@@ -94,7 +94,7 @@ std::string_view trimmed(std::string_view text) {
 // were multiplied.
 float readVariables(Reader& reader) {
     if (!reader.line().starts_with("#?"))
-        throw Error("it does not begin as a Radiance HDR file does");
+        throw Error("it is not a Radiance HDR file");
     float exposure = 1.0f;
     for (std::string_view line = reader.line(); !line.empty(); line = reader.line()) {
         if (line.starts_with("FORMAT=") && trimmed(line.substr(7)) != "32-bit_rle_rgbe")
@@ -107,7 +107,7 @@ float readVariables(Reader& reader) {
     return exposure;
 }
 
-// "-Y height +X width", or +Y for rows from the bottom.
+// The line with the size: "-Y height +X width", or +Y for rows from the bottom.
 Size readSize(Reader& reader) {
     const std::string_view line = trimmed(reader.line());
     const size_t x = line.find(" +X ");
@@ -121,7 +121,8 @@ Size readSize(Reader& reader) {
     return {static_cast<uint32_t>(width), static_cast<uint32_t>(height), line.front() == '+'};
 }
 
-// One component of a row: a count above 128 repeats the byte after it, another one precedes so many bytes.
+// Reads one component of a row: a count above 128 repeats the byte after it, another one precedes so many
+// bytes.
 void readComponent(Reader& reader, std::vector<Rgbe>& row, size_t component) {
     for (size_t x = 0; x < row.size();) {
         const uint8_t code = reader.byte();
@@ -135,8 +136,8 @@ void readComponent(Reader& reader, std::vector<Rgbe>& row, size_t component) {
     }
 }
 
-// Pixels one by one. The old way of runs: (1, 1, 1, n) repeats the pixel before it n times, and directly
-// after another such mark 256 times as often.
+// Reads pixels one by one, with runs of the old kind: (1, 1, 1, n) repeats the pixel before it n times, and
+// directly after another such mark 256 times as often.
 void readPixels(Reader& reader, std::vector<Rgbe>& row) {
     unsigned shift = 0;
     for (size_t x = 0; x < row.size();) {
@@ -162,7 +163,7 @@ glm::vec3 radianceOf(const Rgbe& pixel, float scale) {
     return unit * glm::vec3(pixel[0], pixel[1], pixel[2]);
 }
 
-// Of a row, at least: a pixel, and marks that repeat it 255 and 256 * 255 times. The new runs take more.
+// Fewest bytes of a row: a pixel, and marks that repeat it 255 and 256 * 255 times. The new runs take more.
 uint64_t fewestBytes(uint32_t width) {
     return width == 1 ? 4 : width <= 256 ? 8 : 12;
 }

@@ -9,7 +9,7 @@
 namespace lavalight {
 namespace {
 
-// Of 8-bit channels: a picture has millions of them.
+// Linear values of all 8-bit signals, tabulated because a picture has millions of them.
 std::array<double, 256> linearValues() {
     std::array<double, 256> values{};
     for (size_t i = 0; i < values.size(); ++i)

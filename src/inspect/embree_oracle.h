@@ -29,8 +29,8 @@ class EmbreeOracle {
     // Throws Error when Embree fails.
     EmbreeOracle(std::span<const Triangle> triangles, Traversal traversal);
 
-    // One hit or flag per ray, of triangles at 0 < t <= tMax from either side; ray by ray, on the calling
-    // thread.
+    // Both return a hit or flag per ray, of triangles at 0 < t <= tMax from either side. Rays go one by one,
+    // on the calling thread.
     [[nodiscard]] std::vector<OracleHit> closest(std::span<const OracleRay> rays) const;
     [[nodiscard]] std::vector<uint8_t> occluded(std::span<const OracleRay> rays) const;
 

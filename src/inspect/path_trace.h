@@ -16,7 +16,7 @@ namespace lavalight {
 
 struct TracedPath {
     std::vector<TracedVertex> vertices; // the last one may be where the path left the scene
-    glm::vec3 radiance{0.0f};           // that the sample adds to its pixel
+    glm::vec3 radiance{0.0f};           // what the sample adds to its pixel
 };
 
 // Follows paths with the kernel trace_path, which has the estimator's own functions and is compiled once.
@@ -25,7 +25,7 @@ class PathTracer {
     // For renders with the renderer's estimator and features. The device must outlive it. Throws Error.
     PathTracer(gpu::Device& device, const Renderer& renderer, const KernelSource& source = embeddedKernel);
 
-    // Whether its kernel is that of the renderer's estimator and features.
+    // Whether this one's kernel is that of the renderer's estimator and features.
     [[nodiscard]] bool serves(const Renderer& renderer) const;
 
     // The path that sample number `sample` of `pixel` (from the top left) takes with the renderer's scene,

@@ -59,17 +59,19 @@ size_t pickFrom(std::span<const AliasEntry> table, Random& random) {
 std::vector<Ray> makeCameraRays(const Camera& camera, size_t count, uint32_t seed) {
     RenderSettings settings;
     const float aspect = camera.aspect.value_or(16.0f / 9.0f);
-    settings.height = std::max(1u, static_cast<uint32_t>(std::sqrt(static_cast<float>(count) / aspect)));
-    settings.width = std::max(1u, static_cast<uint32_t>(count / settings.height));
+    settings.image.height =
+        std::max(1u, static_cast<uint32_t>(std::sqrt(static_cast<float>(count) / aspect)));
+    settings.image.width = std::max(1u, static_cast<uint32_t>(count / settings.image.height));
     const FrameParameters frame = makeFrame(Scene{}, camera, settings);
     Random random(seed);
     std::vector<Ray> rays;
-    rays.reserve(size_t{settings.width} * settings.height);
-    for (uint32_t y = 0; y < settings.height; ++y)
-        for (uint32_t x = 0; x < settings.width; ++x) {
+    rays.reserve(size_t{settings.image.width} * settings.image.height);
+    for (uint32_t y = 0; y < settings.image.height; ++y)
+        for (uint32_t x = 0; x < settings.image.width; ++x) {
             const glm::vec2 position(static_cast<float>(x) + random.unit(),
                                      static_cast<float>(y) + random.unit());
-            const glm::vec2 ndc = 2.0f * position / glm::vec2(settings.width, settings.height) - 1.0f;
+            const glm::vec2 ndc =
+                2.0f * position / glm::vec2(settings.image.width, settings.image.height) - 1.0f;
             const glm::vec3 onPlane = ndc.x * frame.cameraRight - ndc.y * frame.cameraUp;
             if (frame.projection == kProjectionOrthographic)
                 rays.push_back(freeRay(frame.cameraPosition + onPlane, frame.cameraForward));
@@ -84,9 +86,9 @@ std::vector<SurfacePoint> hitPoints(std::span<const Ray> rays, std::span<const T
     assert(rays.size() == hits.size());
     std::vector<SurfacePoint> points;
     for (size_t i = 0; i < rays.size(); ++i) {
-        if (hits[i].triangle == kNoTriangle)
+        if (!isSurface(hits[i].surface))
             continue;
-        const Triangle& triangle = triangles[hits[i].triangle];
+        const Triangle& triangle = triangles[hits[i].surface.primitive];
         const glm::vec3 normal = glm::cross(triangle.v1 - triangle.v0, triangle.v2 - triangle.v0);
         const float length = glm::length(normal);
         if (!(length > 0.0f))
@@ -122,7 +124,7 @@ std::vector<ShadowRay> makeShadowRays(std::span<const SurfacePoint> points, cons
             table.empty()
                 ? 2.0f * scene.bounds.radius() * cosineDirection(point.ng, random)
                 : pointOn(triangles[emitters.list[pickFrom(table, random)].triangle], random) - point.p;
-        rays.push_back({point.p, kNoTriangle, kShare * way, kNoTriangle, glm::vec3(0.0f), 0.0f});
+        rays.push_back({point.p, kNoSurface, kShare * way, kNoSurface, glm::vec3(0.0f), 0.0f});
     }
     return rays;
 }

@@ -15,7 +15,7 @@ namespace lavalight {
 
 // That starts on no surface.
 [[nodiscard]] inline Ray freeRay(const glm::vec3& origin, const glm::vec3& direction) {
-    return {origin, kNoTriangle, direction, 0.0f, 0, {}};
+    return {origin, kNoSurface, direction, 0.0f, 0, {}};
 }
 
 // About `count` rays through random points of the pixels of an image, row by row.

@@ -5,6 +5,7 @@
 #include <cassert>
 #include <string_view>
 
+#include "device_scene/scene_features.h"
 #include "gpu/buffer.h"
 #include "kernels/kernel_source.h"
 #include "shared/frame.h"
@@ -14,8 +15,9 @@ namespace {
 
 gpu::Kernel makeKernel(const gpu::Device& device, std::string_view name, bool countsVisits) {
     // No features: all surfaces are opaque to these rays.
-    const std::array<gpu::SpecialisationConstant, 2> constants{
-        {{CONSTANT_COUNT_VISITS, countsVisits ? 1u : 0u}, {CONSTANT_FEATURES, 0u}}};
+    const auto [first, second] = featureConstants(0);
+    const std::array<gpu::SpecialisationConstant, 3> constants{
+        {{CONSTANT_COUNT_VISITS, countsVisits ? 1u : 0u}, first, second}};
     return {device, embeddedKernel(name), constants};
 }
 

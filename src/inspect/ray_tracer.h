@@ -26,8 +26,8 @@ class RayTracer {
 
     // The first hit with t > 0 of each ray, from either side, but not of the triangle that it starts on.
     [[nodiscard]] std::vector<TracedHit> closest(std::span<const Ray> rays);
-    // 1 where anything but the triangles that the ray starts and ends on lies at 0 < t < 1. Contributions are
-    // ignored.
+    // A flag for each ray: 1 where anything but the triangles that the ray starts and ends on lies at
+    // 0 < t < 1. Contributions are ignored.
     [[nodiscard]] std::vector<uint32_t> occluded(std::span<const ShadowRay> rays);
 
     // Device time of the last call's kernel; 0 on a queue without timestamps.

@@ -11,6 +11,7 @@
 #include "base/embedded_file.h"
 #include "base/error.h"
 #include "base/file.h"
+#include "kernels/accelerator_name.h"
 
 namespace lavalight {
 
@@ -34,7 +35,7 @@ std::vector<std::string> includesOf(const std::string& text) {
     static const std::regex include(R"re(^[ \t]*#[ \t]*include[ \t]*"([^"\n]+)")re", std::regex::multiline);
     std::vector<std::string> paths;
     for (std::sregex_iterator match(text.begin(), text.end(), include), end; match != end; ++match)
-        paths.push_back(fs::path((*match)[1].str()).lexically_normal().string());
+        paths.push_back(includedFile(fs::path((*match)[1].str()).lexically_normal().string()));
     return paths;
 }
 
@@ -103,8 +104,8 @@ gpu::KernelCode ShaderOverlay::compile(std::string_view name) const {
     const auto source = find(path);
     if (!source)
         throw Error(fmt::format("there is no kernel {}", path));
-    gpu::KernelCode compiled =
-        gpu::compileKernel(*source, [this](const std::string& included) { return find(included); });
+    gpu::KernelCode compiled = gpu::compileKernel(
+        *source, [this](const std::string& included) { return find(includedFile(included)); });
     gpu::KernelCode embedded = embeddedKernel(name);
     return compiled.content == embedded.content ? embedded
                                                 : compiled; // only comments differ: the inlined one

@@ -27,13 +27,13 @@ class ShaderOverlay {
     // it.
     explicit ShaderOverlay(const std::filesystem::path& folder);
 
-    // Compiled anew, once, where one of the kernel's files is changed, else the embedded one. Throws Error
-    // with the compiler's message. From any thread.
+    // The kernel, compiled anew, once, where one of its files is changed, else the embedded one. Throws Error
+    // with the compiler's message. May be called from any thread.
     [[nodiscard]] const gpu::KernelCode& kernel(std::string_view name);
 
     // Paths of the files that differ from ours or are new, ascending.
     [[nodiscard]] std::vector<std::string> changed() const;
-    // Those of them that no kernel includes: a misspelt name, most likely.
+    // Paths of changed files that no kernel includes: a misspelt name, most likely.
     [[nodiscard]] std::vector<std::string> unused() const;
 
   private:
@@ -41,9 +41,9 @@ class ShaderOverlay {
     [[nodiscard]] std::vector<std::string> filesOf(const std::string& kernelPath) const;
     [[nodiscard]] gpu::KernelCode compile(std::string_view name) const;
 
-    std::map<std::string, gpu::ShaderText> texts_;                // of the changed files
-    std::mutex mutex_;                                            // of:
-    std::map<std::string, gpu::KernelCode, std::less<>> kernels_; // that were asked for
+    std::map<std::string, gpu::ShaderText> texts_;                // texts of the changed files, by path
+    std::mutex mutex_;                                            // guards kernels_
+    std::map<std::string, gpu::KernelCode, std::less<>> kernels_; // kernels that were asked for, by name
 };
 
 // Kernels with the overlay's changes; the embedded ones without an overlay.

@@ -26,10 +26,10 @@ struct Experiment {
     std::vector<Table> (*run)(gpu::Device& device, const LabOptions& options);
 };
 
-// In the order of the lectures.
+// All experiments, in the order of the lectures.
 [[nodiscard]] std::span<const Experiment> experiments();
 
-// Throws UsageError naming the experiments there are.
+// Finds an experiment by name. Throws UsageError naming the experiments there are.
 [[nodiscard]] const Experiment& findExperiment(std::string_view name);
 
 // Equal options give equal tables on one device and driver, but for times. `samples` 0 asks for the default.

@@ -7,7 +7,7 @@
 
 namespace lavalight {
 
-// Of `count` samples: their mean, and the sum of their squared differences from it.
+// The mean of `count` samples, and the sum of their squared differences from it.
 struct Moments {
     double mean = 0.0;
     double squares = 0.0;
@@ -17,7 +17,7 @@ struct Moments {
     [[nodiscard]] double variance() const {
         return count > 1 ? squares / static_cast<double>(count - 1) : 0.0;
     }
-    // Of the mean.
+    // Standard error of the mean.
     [[nodiscard]] double standardError() const {
         return count > 0 ? std::sqrt(variance() / static_cast<double>(count)) : 0.0;
     }
@@ -27,10 +27,10 @@ struct Moments {
 // Computing Sample Variances", 1979, eq. 2.1.
 [[nodiscard]] Moments merged(const Moments& a, const Moments& b);
 
-// Of all parts, in their order: the same parts give the same bits.
+// Moments of the samples of all parts, merged in their order: the same parts give the same bits.
 [[nodiscard]] Moments merged(std::span<const Moments> parts);
 
-// Of numbers at hand.
+// Moments of the numbers in `values`.
 [[nodiscard]] Moments momentsOf(std::span<const double> values);
 
 } // namespace lavalight

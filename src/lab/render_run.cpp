@@ -79,8 +79,8 @@ RenderBench::RenderBench(gpu::Device& device, const std::string& scene, uint32_t
 RenderSettings RenderBench::settings(const EstimatorSettings& estimator, uint32_t samples) const {
     RenderSettings settings;
     settings.estimator = estimator;
-    settings.height = height_;
-    settings.samples = samples;
+    settings.image.height = height_;
+    settings.stop.samples = samples;
     settings = resolveSize(settings, scene_.cameras.front());
     checkSettings(settings);
     return settings;

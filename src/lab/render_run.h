@@ -19,8 +19,8 @@ namespace lavalight {
 struct RenderRun {
     uint64_t samples = 0; // per pixel
     double mean = 0.0;
-    double standardError = 0.0; // of that mean, at most: as if the channels of a pixel were one
-    double variance = 0.0;      // of one sample, by the film: only for Sampler::independent without bias
+    double standardError = 0.0; // upper bound, as if the channels of a pixel were one
+    double variance = 0.0; // variance of a sample, by the film: only for Sampler::independent without bias
     double seconds = 0.0;
     uint64_t paths = 0;
     RayCounts rays;

@@ -17,8 +17,8 @@ namespace {
 static_assert(sizeof(LabRun) == 64 && offsetof(LabRun, a) == 32 && sizeof(LabMoments) == 12);
 
 constexpr uint32_t kGroupSize = 64;
-constexpr uint32_t kSamplesEach = 256; // of an invocation of a plain estimate
-// Fewer for sequences: sums of so few floats are good to 1e-7, below the errors of Sobol's points.
+constexpr uint32_t kSamplesEach = 256; // samples of an invocation, in a plain estimate
+// Sequences take fewer: sums of so few floats are good to 1e-7, below the errors of Sobol's points.
 constexpr uint32_t kSequenceSamplesEach = 64;
 
 gpu::Kernel makeKernel(const gpu::Device& device, std::string_view name, Sampler sampler) {

@@ -23,7 +23,7 @@ class SampleKernel {
     SampleKernel(gpu::Device& device, std::string_view name, Sampler sampler = Sampler::independent);
 
     // Moments of `samples` (1 to kMostLabSamples) independent samples. run.seed, kind, variant, count, a and
-    // b say of what; the rest is filled in. `table` is for kernels that read one.
+    // b say what is sampled; the rest is filled in. `table` is for kernels that read one.
     [[nodiscard]] Moments estimate(LabRun run, uint64_t samples, std::span<const float> table = {}) const;
 
     // Moments of `samplesPerStream` samples (a power of two) for each of `streams` sequences.

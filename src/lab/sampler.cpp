@@ -99,7 +99,7 @@ constexpr uint32_t kImageSamples = 256;
 // Images of the first 16, 64, 256 samples of one render.
 std::vector<Image> snapshots(const RenderBench& bench, const EstimatorSettings& estimator) {
     RenderSettings settings = bench.settings(estimator, kImageSamples);
-    settings.waveSize = settings.width * settings.height * kImageStep;
+    settings.work.waveSize = settings.image.width * settings.image.height * kImageStep;
     Renderer renderer(bench.device(), bench.scene(), bench.scene().cameras.front(), settings);
     std::vector<Image> images;
     uint32_t next = kImageStep;

@@ -28,12 +28,12 @@ std::vector<float> uniformPmf(uint32_t count) {
     return normalised(count, [](uint32_t) { return 1.0; });
 }
 
-// By the integrand in the middle of the stratum, which is all that one knows without its integral.
+// Strata picked by the integrand in their middle, which is all that one knows without its integral.
 std::vector<float> functionPmf(uint32_t count) {
     return normalised(count, [count](uint32_t i) { return std::exp(kStrataRate * (i + 0.5) / count); });
 }
 
-// An odd choice, against the integrand: the first stratum is the likeliest.
+// Strata picked against the integrand, an odd choice: the first one is the likeliest.
 std::vector<float> backwardsPmf(uint32_t count) {
     return normalised(count, [count](uint32_t i) { return static_cast<double>(count - i); });
 }

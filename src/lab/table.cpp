@@ -53,7 +53,7 @@ std::string csvField(const std::string& text) {
     return quoted + "\"";
 }
 
-// All digits: a program reads this.
+// The number with all digits, for programs.
 std::string csvCell(const Cell& cell) {
     if (const auto* number = std::get_if<double>(&cell))
         return std::isfinite(*number) ? fmt::format("{}", *number) : "";

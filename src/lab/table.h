@@ -12,7 +12,7 @@
 
 namespace lavalight {
 
-// Nothing: the figure has no meaning in this row.
+// A cell of a row; std::monostate where the figure has no meaning in this row.
 using Cell = std::variant<std::monostate, std::string, uint64_t, double>;
 
 struct Column {
@@ -44,10 +44,10 @@ struct EstimatorRow {
     double estimate = 0.0;
     std::optional<double> exact;
     double standardError = 0.0;
-    double variance = 0.0;        // of one sample
-    std::optional<double> theory; // that variance, by formula
-    double cost = 1.0;            // of one sample; the ratio compares at equal cost
-    std::vector<Cell> more;       // what this table has besides
+    double variance = 0.0;        // variance of one sample
+    std::optional<double> theory; // variance of one sample, by formula
+    double cost = 1.0;            // cost of one sample; the ratio compares at equal cost
+    std::vector<Cell> more;       // further columns of this table
 };
 
 // Columns estimator, samples, estimate, exact, standard error, variance, theory (where any row has one),

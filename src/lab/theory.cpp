@@ -107,8 +107,8 @@ double SphereLight::power() const {
     return 4.0 * pi * radius * radius * pi * radiance;
 }
 
-// Over the cone, with t the cosine to its axis: mean(t) = (1 + t0) / 2 and mean(t^2) = (1 + t0 + t0^2) / 3.
-// The cosine to the normal is t cos(center) + sqrt(1 - t^2) sin(center) cos(phi).
+// With t the cosine to the cone's axis, mean(t) = (1 + t0) / 2 and mean(t^2) = (1 + t0 + t0^2) / 3 over the
+// cone. The cosine to the normal is t cos(center) + sqrt(1 - t^2) sin(center) cos(phi).
 Theory SphereLight::irradiance() const {
     const double rim = 1.0 - oneMinusCosRim();
     const double scale = 2.0 * pi * oneMinusCosRim() * radiance;
@@ -139,9 +139,9 @@ Theory rouletteRays(uint32_t count, double power, double p) {
     return {count * power, count * power * power * (1.0 / p - 1.0)};
 }
 
-// Exact: after Duntley, "The Optical Properties of Diffusing Materials", 1942, for the denser medium beyond.
-// From within, all beyond the critical angle is reflected and the rest is the same light backwards: 1 - (1 -
-// F) eta^2, for both curves (the lecture's goes by the outer cosine).
+// The exact mean is after Duntley, "The Optical Properties of Diffusing Materials", 1942, for the denser
+// medium beyond. From within, all beyond the critical angle is reflected and the rest is the same light
+// backwards: 1 - (1 - F) eta^2, for both curves (the lecture's goes by the outer cosine).
 double diffuseReflectance(Fresnel fresnel, double eta) {
     if (eta < 1.0)
         return 1.0 - (1.0 - diffuseReflectance(fresnel, 1.0 / eta)) * eta * eta;

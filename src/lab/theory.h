@@ -17,8 +17,8 @@ struct Theory {
 
 // 6 * D1 + D2 by rolling both dice.
 [[nodiscard]] Theory diceTogether();
-// The same by one roll: the sixfold die with probability p in (0, 1), else the other; divided by the
-// probability.
+// 6 * D1 + D2 by rolling one die: the sixfold one with probability p in (0, 1), else the other; divided by
+// the probability.
 [[nodiscard]] Theory dieAtATime(double p);
 // The p of least variance.
 [[nodiscard]] double bestDieProbability();
@@ -33,19 +33,19 @@ struct Theory {
 
 // A sphere of uniform radiance, all of it above the horizon.
 struct SphereLight {
-    double cosCenter = 1.0; // of the angle between the normal and the direction of the centre
+    double cosCenter = 1.0; // cosine of the angle between the normal and the direction of the centre
     double radius = 1.0;
-    double distance = 2.0; // of the centre; more than the radius
+    double distance = 2.0; // distance of the centre; more than the radius
     double radiance = 1.0;
 
     // 1 - cosine of the angle between the centre and the rim, by a formula that does not cancel.
     [[nodiscard]] double oneMinusCosRim() const;
     [[nodiscard]] double power() const; // in W
-    // Of one sample by a direction uniform in the cone, no picking.
+    // Irradiance by one direction, uniform in the cone, without picking a light.
     [[nodiscard]] Theory irradiance() const;
 };
 
-// Irradiance of both, picking the first with probability p.
+// Irradiance of both lights, picking the first with probability p.
 [[nodiscard]] Theory twoLights(const SphereLight& first, const SphereLight& second, double p);
 [[nodiscard]] double bestLightProbability(const SphereLight& first, const SphereLight& second);
 

@@ -12,7 +12,7 @@ namespace lavalight {
 
 namespace {
 
-constexpr double kSteps = 16777216.0; // of u: 2^24
+constexpr double kSteps = 16777216.0; // values of u: 2^24
 constexpr size_t kMaxEntries = 1u << 24;
 
 double checkedSum(std::span<const double> weights) {
@@ -30,7 +30,7 @@ double checkedSum(std::span<const double> weights) {
     return sum;
 }
 
-// To a multiple of 2^-24 that is not 0 for a positive weight, which would lose its light.
+// Rounds to a multiple of 2^-24: not to 0 for a positive weight, which would lose its light.
 float quantised(double probability) {
     return static_cast<float>(std::clamp(std::round(probability * kSteps), 1.0, kSteps) / kSteps);
 }

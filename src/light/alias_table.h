@@ -12,10 +12,10 @@ namespace lavalight {
 //     pick = u < entry[bin].probability ? bin : entry[bin].alias
 // and entry[pick].pmf is its probability.
 struct AliasEntry {
-    // Of staying in this bin: a multiple of 2^-24, so that u < probability has exactly it.
+    // Probability of staying in this bin: a multiple of 2^-24, so that it is exactly how often u is below.
     float probability = 0.0f;
     uint32_t alias = 0;
-    float pmf = 0.0f; // of this entry being picked
+    float pmf = 0.0f; // probability of this entry being picked
 };
 static_assert(sizeof(AliasEntry) == 12);
 

@@ -23,7 +23,7 @@ double triangleArea(const Mesh& mesh, const glm::uvec3& triangle) {
     return 0.5 * glm::length(glm::cross(v1 - v0, v2 - v0));
 }
 
-// By material; meshes share them.
+// Means of the emission textures by material; meshes share them.
 using TextureMeans = std::map<uint32_t, TextureMean>;
 
 // What a mesh's triangles emit.
@@ -41,9 +41,9 @@ class Exitance {
 
     [[nodiscard]] bool emits() const { return !material_->isUnlit && material_->emission != glm::vec3(0.0f); }
 
-    // W/m^2: radiance times pi, the integral of the cosine over the hemisphere, per emitting side. The mean
-    // of the channels rather than their luminance, since a blue light is as noisy as a green one where it is
-    // seen alone.
+    // Exitance in W/m^2: radiance times pi, the integral of the cosine over the hemisphere, per emitting
+    // side. The mean of the channels rather than their luminance, since a blue light is as noisy as a green
+    // one where it is seen alone.
     [[nodiscard]] double of(const glm::uvec3& triangle) const {
         const glm::dvec3 texture = texels_ != nullptr ? texels_->over(corners(triangle)) : glm::dvec3(1.0);
         const double mean = glm::dot(glm::dvec3(material_->emission), texture) / 3.0;

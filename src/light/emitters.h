@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "scene/scene.h"
-#include "shared/bvh.h"
+#include "shared/triangle.h"
 
 namespace lavalight {
 

@@ -21,14 +21,14 @@ struct Level {
     }
 };
 
-// Of a cell in that row, sr.
+// Solid angle of a cell in that row, sr.
 double solidAngle(const Image& map, uint32_t row) {
     const double top = pi * std::max(row - 0.5, 0.0) / map.height;
     const double bottom = pi * std::min(row + 0.5, static_cast<double>(map.height)) / map.height;
     return 4.0 * pi / map.width * std::sin(0.5 * (top + bottom)) * std::sin(0.5 * (bottom - top));
 }
 
-// Of the four corners.
+// Mean radiance of the cell's four corners.
 glm::dvec3 meanOfCell(const Image& map, uint32_t x, uint32_t y) {
     const uint32_t left = (x == 0 ? map.width : x) - 1;
     const uint32_t above = std::max(y, 1u) - 1;

@@ -13,9 +13,9 @@ namespace lavalight {
 // Where a square of two by two cells, or of two by two such squares, and so on, sends a random point.
 struct EnvironmentQuad {
     float top = 1.0f;          // probability of the upper half; rows count from the top
-    float leftOfTop = 1.0f;    // of its left quarter
-    float leftOfBottom = 1.0f; // of the left quarter of the lower half
-    float levels = 0.0f;       // of the first quad alone: of quads, in all
+    float leftOfTop = 1.0f;    // probability, within the upper half, of its left quarter
+    float leftOfBottom = 1.0f; // probability, within the lower half, of its left quarter
+    float levels = 0.0f;       // number of levels of quads; in the first quad alone
 };
 
 // Cells lie between texel centres, where lookups are bilinear: cell (x, y) has texel (x, y) at its lower
@@ -29,11 +29,11 @@ struct EnvironmentQuad {
 // times the sum of the channels, interpolated between the corners bilinearly in u and in solid angle: 0 only
 // where lookups are 0.
 struct EnvironmentDistribution {
-    uint32_t width = 0; // of the map, texels
+    uint32_t width = 0; // texels of the map in a row
     uint32_t height = 0;
     std::vector<EnvironmentQuad> quads;
-    std::vector<float> scales;    // per cell: what the quads do, with their rounding
-    glm::dvec3 meanRadiance{0.0}; // over the sphere
+    std::vector<float> scales;    // per cell: its probability by the quads, rounding and all, over its mass
+    glm::dvec3 meanRadiance{0.0}; // mean over the sphere
 };
 
 // `map`: u grows to the right, from +Y at the top to -Y; values are finite and not negative. All scales are 0

@@ -21,7 +21,7 @@ glm::dvec3 rotated(const glm::dvec3& v, const glm::dvec3& axis, double angle) {
     return v * c + glm::cross(axis, v) * std::sin(angle) + axis * (glm::dot(axis, v) * (1.0 - c));
 }
 
-// Their algorithm 1. The axes of two-sided lights may point either way.
+// Algorithm 1 of Conty Estevez and Kulla. The axes of two-sided lights may point either way.
 LightCone unite(LightCone a, LightCone b, bool axesMayTurn) {
     if (axesMayTurn && glm::dot(a.axis, b.axis) < 0.0)
         b.axis = -b.axis;
@@ -49,8 +49,8 @@ LightBounds boundsOf(const Mesh& mesh, const Material& material, const glm::uvec
     bounds.upper = glm::max(glm::max(v0, v1), v2);
     bounds.cone = {normal / glm::length(normal), 0.0, 0.5 * pi};
     bounds.isTwoSided = material.doubleSided;
-    bounds.intensity =
-        power / (material.doubleSided ? 2.0 * pi : pi); // of a Lambert emitter along its normal
+    // Intensity of a Lambert emitter along its normal.
+    bounds.intensity = power / (material.doubleSided ? 2.0 * pi : pi);
     return bounds;
 }
 

@@ -11,7 +11,7 @@
 namespace lavalight {
 
 // Directions of emission: normals lie within `spread` around the axis, and light leaves within `falloff`
-// around each of them. Both in radians, at most pi together where it matters.
+// around each of them. Both angles are in radians, at most pi together where it matters.
 struct LightCone {
     glm::dvec3 axis{0.0, 0.0, 1.0};
     double spread = 0.0;
@@ -28,12 +28,12 @@ struct LightBounds {
     [[nodiscard]] glm::dvec3 center() const { return 0.5 * (lower + upper); }
 };
 
-// Of everything in either.
+// Bounds of everything that is in either.
 [[nodiscard]] LightBounds unite(const LightBounds& a, const LightBounds& b);
 
-// Of each emitter, in their order.
+// Bounds of each emitter, in their order.
 [[nodiscard]] std::vector<LightBounds> boundsOf(const Scene& scene, const Emitters& emitters);
-// Of a point light or a spot.
+// Bounds of a point light or a spot.
 [[nodiscard]] LightBounds boundsOf(const PunctualLight& light);
 
 } // namespace lavalight

@@ -20,7 +20,7 @@ using Ids = std::span<uint32_t>;
 
 constexpr size_t kBuckets = 12; // along each axis, whose borders are the splits that are compared
 
-// The solid angle of emission, weighted by the cosine to the nearest normal. Their equation 1.
+// The solid angle of emission, weighted by the cosine to the nearest normal (equation 1).
 double solidAngleMeasure(const LightCone& cone) {
     const double spread = cone.spread;
     const double reach = std::min(spread + cone.falloff, pi);
@@ -37,7 +37,7 @@ double costOf(const LightBounds& bounds) {
 
 struct Split {
     int axis = 0;
-    double lower = 0.0; // of the centres' extent
+    double lower = 0.0; // lower end of the centres' extent
     double extent = 0.0;
     size_t firstOfSecond = 0; // bucket
     double cost = std::numeric_limits<double>::infinity();
@@ -61,7 +61,7 @@ void add(std::optional<LightBounds>& sum, const std::optional<LightBounds>& boun
 std::array<double, kBuckets> splitCosts(const Buckets& buckets) {
     std::array<double, kBuckets> costs;
     costs.fill(std::numeric_limits<double>::infinity());
-    std::array<std::optional<LightBounds>, kBuckets> first; // of the buckets before each
+    std::array<std::optional<LightBounds>, kBuckets> first; // bounds of the buckets before each
     for (size_t i = 1; i < kBuckets; ++i) {
         first[i] = first[i - 1];
         add(first[i], buckets[i - 1]);
@@ -91,7 +91,7 @@ class Builder {
     LightTree take() { return std::move(tree_); }
 
   private:
-    // Fills `node` with the lights of `ids`, and `path` leads to it.
+    // Fills `node` with the lights of `ids`; `path` leads to the node.
     void build(size_t node, Ids ids, uint32_t path, uint32_t level) {
         if (ids.size() == 1) {
             tree_.nodes[node] = {lights_[ids[0]], true, ids[0]};
@@ -119,7 +119,7 @@ class Builder {
         return static_cast<size_t>(second - ids.begin());
     }
 
-    // Nothing where all centres are the same.
+    // The cheapest split; nothing where all centres are the same.
     [[nodiscard]] std::optional<Split> bestSplit(Ids ids) const {
         const auto [lower, extent] = centreExtent(ids);
         const double widest = std::max({extent.x, extent.y, extent.z});
@@ -134,7 +134,7 @@ class Builder {
             const std::array<double, kBuckets> costs = splitCosts(buckets);
             for (size_t i = 1; i < kBuckets; ++i) {
                 split.firstOfSecond = i;
-                split.cost = costs[i] * widest / split.extent; // discourages thin slices; their equation 2
+                split.cost = costs[i] * widest / split.extent; // discourages thin slices (equation 2)
                 if (split.cost < best.cost)
                     best = split;
             }

@@ -21,7 +21,7 @@ struct LightTreeNode {
 
 struct LightTree {
     std::vector<LightTreeNode> nodes; // the root first; empty without lights
-    // Per light, the way to its leaf: bit i is set where, i levels below the root, it is in the second child.
+    // The way to each light's leaf: bit i is set where, i levels below the root, it is in the second child.
     std::vector<uint32_t> paths;
 };
 

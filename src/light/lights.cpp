@@ -50,8 +50,8 @@ void addPunctuals(const Scene& scene, bool atInfinity, Lights& lights) {
     }
 }
 
-// What is black leaves no trace. Around an empty scene, which it cannot light, an environment is seen all the
-// same.
+// A black environment leaves no trace. Around an empty scene, which it cannot light, an environment is seen
+// all the same.
 void addEnvironment(const Scene& scene, const glm::vec3& radiance, Lights& lights) {
     glm::dvec3 mean(radiance);
     if (scene.environmentMap && radiance != glm::vec3(0.0f)) {
@@ -71,7 +71,7 @@ void addEnvironment(const Scene& scene, const glm::vec3& radiance, Lights& light
     }
 }
 
-// Over all lights that are somewhere.
+// The tree over all lights that have a place.
 LightTree treeOf(const Scene& scene, const Lights& lights) {
     std::vector<LightBounds> bounds = boundsOf(scene, lights.emitters);
     for (const uint32_t index : lights.punctuals)
@@ -86,7 +86,7 @@ LightTree treeOf(const Scene& scene, const Lights& lights) {
 // with 1/20.
 constexpr double kWeightOfFoundEnvironment = 1.0 / 16.0;
 
-// A map's sun or lamps are found by light samples alone: it is picked by its power beside that of the tree,
+// A map's sun or lamps are found by light samples alone: the map is picked by its power beside the tree's,
 // within bounds, since powers say little about a single point. Measured on dense-3000 (a quad) under a clear
 // sky with its sun, where the map brings nearly all: relMSE of equal samples 0.115 with a share of 1/17,
 // 0.029 with 1/5, 0.0075 with 1/2, 0.0037 with 3/4.
@@ -121,7 +121,7 @@ double powerOf(const PunctualLight& light, const Bounds& bounds) {
     switch (light.kind) {
     case PunctualKind::point:
         return 4.0 * pi * intensity;
-    case PunctualKind::spot: // full inside, and a third of it between: the mean of a squared ramp
+    case PunctualKind::spot: // full intensity inside, a third of it between: the mean of a squared ramp
         return 2.0 * pi * intensity * (inner + (outer - inner) / 3.0);
     case PunctualKind::directional:
         return pi * bounds.radius() * bounds.radius() * intensity;

@@ -19,7 +19,7 @@ enum class LightSelection : uint32_t {
     automatic, // resolveLightSelection() says which
     power,     // a light is picked with a probability proportional to its power
     uniform,   // every light alike
-    tree // by what it may bring to the shading point; all of the tree as often as each light at infinity
+    tree       // by what a light may bring to the point; the whole tree as often as one light at infinity
 };
 
 // Lights are numbered emitters first, then point lights and spots, directional lights, the environment.
@@ -30,18 +30,18 @@ struct Lights {
     std::vector<uint32_t> punctuals;     // indices into Scene::punctualLights, in that order
     std::optional<uint32_t> environment; // number of the environment light
     glm::vec3 environmentRadiance{0.0f}; // constant, or what the map's texels are multiplied by
-    std::optional<EnvironmentDistribution> environmentMap; // of the scene's map
+    std::optional<EnvironmentDistribution> environmentMap; // distribution of the scene's map
     std::vector<double> powers;                            // W, per light
-    LightTree tree;           // over the lights before firstColumn; empty but for LightSelection::tree
+    LightTree tree;           // tree over the lights before firstColumn; empty but for LightSelection::tree
     uint32_t firstColumn = 0; // the first light of `table`
-    // Per light from firstColumn on, and then one more for the tree, if there is one; its pmf serves sampling
-    // and MIS alike.
+    // An entry per light from firstColumn on, and then one more for the tree, if there is one; pmf serves
+    // sampling and MIS alike.
     std::vector<AliasEntry> table;
 };
 
-// Of LightSelection::automatic: the tree where there is more to choose from than the two halves of a quad. On
-// scenes of many lights, of lights and sky, or of lights at different distances it takes 0.06 to 0.6 of the
-// time to equal error; in a box with one quad, 1.1.
+// What LightSelection::automatic stands for: the tree where there is more to choose from than the two halves
+// of a quad. On scenes of many lights, of lights and sky, or of lights at different distances it takes 0.06
+// to 0.6 of the time to equal error; in a box with one quad, 1.1.
 [[nodiscard]] LightSelection resolveLightSelection(LightSelection selection, size_t localLights,
                                                    size_t allLights);
 
@@ -51,7 +51,8 @@ struct Lights {
 [[nodiscard]] Lights collectLights(const Scene& scene, const glm::vec3& environment, LightSelection selection,
                                    bool bsdfFindsEnvironment = true);
 
-// W, mean of the channels. Directional lights and the environment shine through the sphere around the scene.
+// Power in W, mean of the channels. Directional lights and the environment shine through the sphere around
+// the scene.
 [[nodiscard]] double powerOf(const PunctualLight& light, const Bounds& bounds);
 [[nodiscard]] double environmentPower(const glm::vec3& radiance, const Bounds& bounds);
 

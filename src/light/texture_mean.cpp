@@ -10,8 +10,8 @@ namespace {
 
 using Polygon = std::vector<glm::dvec2>;
 
-// Sutherland, Hodgman, "Reentrant Polygon Clipping", 1974: the part where p[axis] is above (side 1) or below
-// (-1) the limit.
+// The part of a polygon where p[axis] is above (side 1) or below (-1) the limit. Sutherland, Hodgman,
+// "Reentrant Polygon Clipping", 1974.
 Polygon clipped(const Polygon& polygon, glm::length_t axis, double limit, double side) {
     Polygon kept;
     for (size_t i = 0; i < polygon.size(); ++i) {
@@ -108,8 +108,8 @@ glm::dvec3 TextureMean::filtered(const Level& level, glm::dvec2 p, int64_t x, in
                     glm::mix(texel(level, x, y + 1), texel(level, x + 1, y + 1), f.x), f.y);
 }
 
-// Cell by cell: there the texture is a polynomial of degree 2, which the midpoints of a triangle's edges
-// integrate exactly.
+// The mean, cell by cell: in each the texture is a polynomial of degree 2, which the midpoints of a
+// triangle's edges integrate exactly.
 glm::dvec3 TextureMean::meanOver(const Triangle& triangle, const Level& level) const {
     glm::dvec3 sum(0.0);
     double area = 0.0;
@@ -135,7 +135,7 @@ glm::dvec3 TextureMean::meanOver(const Triangle& triangle, const Level& level) c
     return area > 0.0 ? sum / area : meanAlong(triangle, level);
 }
 
-// Of a triangle that is a line or a point in the picture: points along it.
+// The mean over a triangle that is a line or a point in the picture, from points along its edges.
 glm::dvec3 TextureMean::meanAlong(const Triangle& triangle, const Level& level) const {
     constexpr int kSteps = 64;
     glm::dvec3 sum(0.0);

@@ -3,12 +3,14 @@
 #include <cassert>
 #include <chrono>
 
+#include "device_scene/scene_features.h"
 #include "gpu/warm_up.h"
 
 namespace lavalight {
 
 std::vector<gpu::SpecialisationConstant> estimatorConstants(const EstimatorSettings& settings,
-                                                            uint32_t features) {
+                                                            SceneFeatures features) {
+    const auto [first, second] = featureConstants(features);
     return {{CONSTANT_SAMPLER, static_cast<uint32_t>(settings.sampler)},
             {CONSTANT_HEMISPHERE, static_cast<uint32_t>(settings.hemisphere)},
             {CONSTANT_NEE, settings.nextEventEstimation ? 1u : 0u},
@@ -18,22 +20,23 @@ std::vector<gpu::SpecialisationConstant> estimatorConstants(const EstimatorSetti
             {CONSTANT_FRESNEL, static_cast<uint32_t>(settings.fresnel)},
             {CONSTANT_MULTIPLE_SCATTERING, settings.multipleScattering ? 1u : 0u},
             {CONSTANT_TEXTURE_FILTER, static_cast<uint32_t>(settings.textureFilter)},
-            {CONSTANT_FEATURES, features}};
+            first,
+            second};
 }
 
-std::vector<std::string_view> estimatorKernelNames(Kernels kernels) {
-    assert(kernels != Kernels::automatic);
-    if (kernels == Kernels::fused)
+std::vector<std::string_view> estimatorKernelNames(Schedule schedule) {
+    assert(schedule != Schedule::automatic);
+    if (schedule == Schedule::fused)
         return {"path", "accumulate"};
     return {"generate", "extend", "shade", "prepare", "connect", "accumulate"};
 }
 
-EstimatorKernels::EstimatorKernels(gpu::Device& device, Kernels kernels, const EstimatorSettings& settings,
-                                   uint32_t features, const KernelSource& source)
-    : way_(kernels), constants_(estimatorConstants(settings, features)) {
+EstimatorKernels::EstimatorKernels(gpu::Device& device, Schedule schedule, const EstimatorSettings& settings,
+                                   SceneFeatures features, const KernelSource& source)
+    : schedule_(schedule), constants_(estimatorConstants(settings, features)) {
     const auto start = std::chrono::steady_clock::now();
     std::vector<const gpu::Kernel*> made;
-    for (const std::string_view name : estimatorKernelNames(kernels))
+    for (const std::string_view name : estimatorKernelNames(schedule))
         made.push_back(
             &kernels_.try_emplace(std::string(name), device, source(name), constants_).first->second);
     gpu::warmUp(device, made);
@@ -64,8 +67,9 @@ void EstimatorKernels::replace(KernelMap compiled) noexcept {
     kernels_.merge(compiled); // kernels stay at their addresses, which bound ones know
 }
 
-bool EstimatorKernels::serve(Kernels kernels, const EstimatorSettings& settings, uint32_t features) const {
-    return kernels == way_ && estimatorConstants(settings, features) == constants_;
+bool EstimatorKernels::serve(Schedule schedule, const EstimatorSettings& settings,
+                             SceneFeatures features) const {
+    return schedule == schedule_ && estimatorConstants(settings, features) == constants_;
 }
 
 const gpu::Kernel& EstimatorKernels::operator[](std::string_view name) const {

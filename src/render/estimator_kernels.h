@@ -12,25 +12,26 @@
 #include "gpu/kernel.h"
 #include "kernels/kernel_source.h"
 #include "render/settings.h"
+#include "shared/features.h"
 
 namespace lavalight {
 
-// For lib/estimator.glsl and lib/features.glsl; `features`: of the scene, kFeature... bits. Kernels ignore
-// constants that they do not declare.
+// For lib/estimator.glsl and lib/features.glsl; `features`: of the scene,
+// kFeature... bits. Kernels ignore constants that they do not declare.
 [[nodiscard]] std::vector<gpu::SpecialisationConstant> estimatorConstants(const EstimatorSettings& settings,
-                                                                          uint32_t features);
+                                                                          SceneFeatures features);
 
-// Names of the kernels of one way to render, which must not be automatic.
-[[nodiscard]] std::vector<std::string_view> estimatorKernelNames(Kernels kernels);
+// Names of the kernels that the schedule runs; it must not be automatic.
+[[nodiscard]] std::vector<std::string_view> estimatorKernelNames(Schedule schedule);
 
 using KernelMap = std::map<std::string, gpu::Kernel, std::less<>>;
 
-// The kernels of one way to render, specialised, and compiled by the driver. No scene need be uploaded yet.
+// The kernels of a schedule, specialised, and compiled by the driver. No scene need be uploaded yet.
 class EstimatorKernels {
   public:
-    // `kernels` must not be automatic.
-    EstimatorKernels(gpu::Device& device, Kernels kernels, const EstimatorSettings& settings,
-                     uint32_t features, const KernelSource& source);
+    // The schedule must not be automatic.
+    EstimatorKernels(gpu::Device& device, Schedule schedule, const EstimatorSettings& settings,
+                     SceneFeatures features, const KernelSource& source);
 
     // Names of the kernels whose code `source` changes. Throws Error as `source` does.
     [[nodiscard]] std::vector<std::string> changed(const KernelSource& source) const;
@@ -39,11 +40,12 @@ class EstimatorKernels {
     // Puts compiled kernels in the places of those of their names, which nothing may be bound to any more.
     void replace(KernelMap compiled) noexcept;
 
-    // The kernel must be one of that way.
+    // The kernel must be one of the schedule's.
     [[nodiscard]] const gpu::Kernel& operator[](std::string_view name) const;
     [[nodiscard]] const KernelMap& all() const { return kernels_; }
     // Whether they are what the constructor would make of these.
-    [[nodiscard]] bool serve(Kernels kernels, const EstimatorSettings& settings, uint32_t features) const;
+    [[nodiscard]] bool serve(Schedule schedule, const EstimatorSettings& settings,
+                             SceneFeatures features) const;
     // For another render, which they cost no time.
     [[nodiscard]] EstimatorKernels handOn() && {
         seconds_ = 0.0;
@@ -54,7 +56,7 @@ class EstimatorKernels {
     [[nodiscard]] double seconds() const { return seconds_; }
 
   private:
-    Kernels way_;
+    Schedule schedule_;
     std::vector<gpu::SpecialisationConstant> constants_;
     KernelMap kernels_;
     double seconds_ = 0.0;

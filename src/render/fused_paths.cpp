@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "shared/scene.h"
+#include "shared/features.h"
 
 namespace lavalight {
 namespace {

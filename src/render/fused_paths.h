@@ -21,7 +21,7 @@ class FusedPaths : public WaveRenderer {
         [[nodiscard]] gpu::ResourceTable table() const;
         gpu::Buffer paths, lanes, waiting, counters;
     };
-    // One dispatch; the number of lanes that want another.
+    // Runs one dispatch and returns the number of lanes that want another.
     [[nodiscard]] uint32_t advance(const BoundBand& band, const WaveRange& range, uint32_t lanes);
 
     State state_;

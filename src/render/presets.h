@@ -10,14 +10,14 @@ namespace lavalight {
 
 struct Preset {
     std::string_view name;
-    std::string_view sets;    // as options
+    std::string_view sets;    // what it sets, as options
     std::string_view meaning; // what the lecture says of it
     EstimatorSettings settings;
 };
 
 [[nodiscard]] std::span<const Preset> presets();
 
-// Throws UsageError naming the presets there are.
+// Finds a preset by name. Throws UsageError naming the presets there are.
 [[nodiscard]] const Preset& findPreset(std::string_view name);
 
 } // namespace lavalight

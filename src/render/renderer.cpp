@@ -42,26 +42,27 @@ uint32_t samplesPerWave(uint32_t remaining, uint32_t waveSize, const Film& film)
 // Constant radiance, or what the map's texels are multiplied by.
 glm::vec3 environmentFactor(const Scene& scene, const RenderSettings& settings) {
     const glm::vec3 unscaled =
-        scene.environmentMap ? glm::vec3(1.0f) : settings.environment.value_or(scene.environment);
-    return settings.environmentIntensity * unscaled;
+        scene.environmentMap ? glm::vec3(1.0f) : settings.lighting.constant.value_or(scene.environment);
+    return settings.lighting.intensity * unscaled;
 }
 
 } // namespace
 
 RenderSettings resolveSize(RenderSettings settings, const Camera& camera) {
-    if (settings.width == 0) {
+    if (settings.image.width == 0) {
         const float aspect = camera.aspect.value_or(16.0f / 9.0f);
-        const float width = std::round(static_cast<float>(settings.height) * aspect);
-        settings.width = static_cast<uint32_t>(std::clamp(width, 1.0f, static_cast<float>(kMaxImageSide)));
+        const float width = std::round(static_cast<float>(settings.image.height) * aspect);
+        settings.image.width =
+            static_cast<uint32_t>(std::clamp(width, 1.0f, static_cast<float>(kMaxImageSide)));
     }
     return settings;
 }
 
-RenderSettings resolveKernels(RenderSettings settings, bool isCpu) {
-    if (settings.kernels == Kernels::automatic)
-        settings.kernels = isCpu ? Kernels::fused : Kernels::wavefront;
-    if (settings.waveSize == 0)
-        settings.waveSize = kWaveSize;
+RenderSettings resolveSchedule(RenderSettings settings, bool isCpu) {
+    if (settings.work.schedule == Schedule::automatic)
+        settings.work.schedule = isCpu ? Schedule::fused : Schedule::wavefront;
+    if (settings.work.waveSize == 0)
+        settings.work.waveSize = kWaveSize;
     return settings;
 }
 
@@ -69,7 +70,7 @@ FrameParameters makeFrame(const Scene& scene, const Camera& camera, const Render
     const float halfHeight = camera.projection == Projection::orthographic
                                  ? camera.halfHeight
                                  : std::tan(0.5f * camera.verticalFov);
-    const float aspect = static_cast<float>(settings.width) / static_cast<float>(settings.height);
+    const float aspect = static_cast<float>(settings.image.width) / static_cast<float>(settings.image.height);
     FrameParameters frame{};
     frame.cameraPosition = camera.position;
     frame.projection = static_cast<uint32_t>(camera.projection);
@@ -78,18 +79,18 @@ FrameParameters makeFrame(const Scene& scene, const Camera& camera, const Render
     frame.cameraForward = camera.forward;
     frame.lensRadius = camera.lensRadius;
     frame.focusDistance = camera.focusDistance;
-    frame.imageWidth = settings.width;
-    frame.imageHeight = settings.height;
+    frame.imageWidth = settings.image.width;
+    frame.imageHeight = settings.image.height;
     frame.seed = settings.estimator.seed;
     frame.environmentLight = kNoLight;
-    frame.environmentRotation = settings.environmentRotation / 360.0f;
+    frame.environmentRotation = settings.lighting.rotation / 360.0f;
     frame.sceneCenter = scene.bounds.center();
     frame.sceneRadius = scene.bounds.radius();
     frame.maxBounces = settings.estimator.maxBounces;
     frame.rouletteStart = settings.estimator.rouletteStart;
     frame.rouletteProbability = settings.estimator.rouletteProbability;
     frame.clampIndirect = settings.estimator.clampIndirect;
-    frame.waveSize = settings.waveSize;
+    frame.waveSize = settings.work.waveSize;
     return frame;
 }
 
@@ -118,8 +119,9 @@ void copyLights(const FrameParameters& from, FrameParameters& to) {
 
 bool keepsLights(const RenderSettings& a, const RenderSettings& b) {
     return a.estimator.lightSelection == b.estimator.lightSelection &&
-           (a.estimator.mis == Mis::off) == (b.estimator.mis == Mis::off) && a.environment == b.environment &&
-           a.environmentFile == b.environmentFile && a.environmentIntensity == b.environmentIntensity;
+           (a.estimator.mis == Mis::off) == (b.estimator.mis == Mis::off) &&
+           a.lighting.constant == b.lighting.constant && a.lighting.mapFile == b.lighting.mapFile &&
+           a.lighting.intensity == b.lighting.intensity;
 }
 
 // What takes long before a render can start: the BVH is built on the host while the driver compiles the
@@ -130,7 +132,7 @@ struct Renderer::Setup {
     SceneData scene;
     LightSelection lightSelection;
 
-    using MakeKernels = std::function<EstimatorKernels(uint32_t features)>;
+    using MakeKernels = std::function<EstimatorKernels(SceneFeatures features)>;
 
     static Setup make(const Scene& scene, const Camera& camera, const RenderSettings& settings,
                       const MakeKernels& makeKernels) {
@@ -159,10 +161,11 @@ struct Renderer::Fresh {
 Renderer::Renderer(gpu::Device& device, const Scene& scene, const Camera& camera,
                    const RenderSettings& wanted, const KernelSource& source)
     : Renderer(
-          device, resolveKernels(wanted, device.description().isCpu),
+          device, resolveSchedule(wanted, device.description().isCpu),
           [&](const RenderSettings& settings) {
-              return Setup::make(scene, camera, settings, [&](uint32_t features) {
-                  return EstimatorKernels(device, settings.kernels, settings.estimator, features, source);
+              return Setup::make(scene, camera, settings, [&](SceneFeatures features) {
+                  return EstimatorKernels(device, settings.work.schedule, settings.estimator, features,
+                                          source);
               });
           },
           source) {}
@@ -170,12 +173,13 @@ Renderer::Renderer(gpu::Device& device, const Scene& scene, const Camera& camera
 Renderer::Renderer(gpu::Device& device, const Scene& scene, const Camera& camera,
                    const RenderSettings& wanted, EstimatorKernels earlier, const KernelSource& source)
     : Renderer(
-          device, resolveKernels(wanted, device.description().isCpu),
+          device, resolveSchedule(wanted, device.description().isCpu),
           [&](const RenderSettings& settings) {
-              return Setup::make(scene, camera, settings, [&](uint32_t features) {
-                  if (earlier.serve(settings.kernels, settings.estimator, features))
+              return Setup::make(scene, camera, settings, [&](SceneFeatures features) {
+                  if (earlier.serve(settings.work.schedule, settings.estimator, features))
                       return std::move(earlier);
-                  return EstimatorKernels(device, settings.kernels, settings.estimator, features, source);
+                  return EstimatorKernels(device, settings.work.schedule, settings.estimator, features,
+                                          source);
               });
           },
           source) {}
@@ -188,7 +192,7 @@ Renderer::Renderer(gpu::Device& device, const RenderSettings& settings, Setup se
                    const KernelSource& source)
     : device_(&device), settings_(settings), frame_(setup.frame), sceneFeatures_(setup.scene.features),
       kernels_(std::move(setup.kernels)), scene_(device, setup.scene, source),
-      film_(device, settings.width, settings.height, settings.bandRows),
+      film_(device, settings.image.width, settings.image.height, settings.work.bandRows),
       waves_(makeWaves(Fresh{settings_, frame_})) {
     settings_.estimator.lightSelection = setup.lightSelection;
 }
@@ -220,23 +224,24 @@ void Renderer::reloadKernels(const KernelSource& source) {
 
 void Renderer::restart(const Scene& scene, const Camera& camera, const RenderSettings& wanted,
                        const KernelSource& source) {
-    Fresh fresh{resolveKernels(wanted, device_->description().isCpu), {}};
+    Fresh fresh{resolveSchedule(wanted, device_->description().isCpu), {}};
     fresh.settings.estimator.lightSelection = settings_.estimator.lightSelection;
     fresh.frame = makeFrame(scene, camera, fresh.settings);
     copyLights(frame_, fresh.frame);
-    const uint32_t features = sceneFeatures_ | cameraFeatures(camera);
+    const SceneFeatures features = sceneFeatures_ | cameraFeatures(camera);
     const EstimatorSettings& estimator = fresh.settings.estimator;
-    if (!kernels_.serve(fresh.settings.kernels, estimator, features))
-        fresh.kernels.emplace(*device_, fresh.settings.kernels, estimator, features, source);
+    if (!kernels_.serve(fresh.settings.work.schedule, estimator, features))
+        fresh.kernels.emplace(*device_, fresh.settings.work.schedule, estimator, features, source);
     compileChanged(fresh, source);
-    if (fresh.settings.width != film_.width() || fresh.settings.height != film_.height())
-        fresh.film.emplace(*device_, fresh.settings.width, fresh.settings.height, fresh.settings.bandRows);
+    if (fresh.settings.image.width != film_.width() || fresh.settings.image.height != film_.height())
+        fresh.film.emplace(*device_, fresh.settings.image.width, fresh.settings.image.height,
+                           fresh.settings.work.bandRows);
     startAnew(std::move(fresh));
 }
 
 // Bound to what is fresh, and to what there is where nothing is.
 std::unique_ptr<WaveRenderer> Renderer::makeWaves(const Fresh& fresh) const {
-    const Kernels schedule = fresh.settings.kernels;
+    const Schedule schedule = fresh.settings.work.schedule;
     const std::vector<std::string_view> names = estimatorKernelNames(schedule);
     const auto kernel = [&](std::string_view name) -> const gpu::Kernel& {
         const auto found = fresh.changed.find(name);
@@ -282,12 +287,12 @@ StopReason Renderer::render(const KeepGoing& keepGoing) {
         return std::chrono::duration<double>(Clock::now() - begin).count();
     };
     const Clock::time_point start = Clock::now();
-    WaveBudget budget(settings_.waveSize, device_->description().isCpu);
+    WaveBudget budget(settings_.work.waveSize, device_->description().isCpu);
     for (;;) {
         // Asked before a pass rather than after it: a render that is continued there has to ask as well.
         const bool isPassOver = position_.passSamples == 0;
-        if (settings_.targetError > 0.0 && isPassOver && position_.samplesDone > 1 &&
-            errorEstimate(rendering()) <= settings_.targetError)
+        if (settings_.stop.targetError > 0.0 && isPassOver && position_.samplesDone > 1 &&
+            errorEstimate(rendering()) <= settings_.stop.targetError)
             return StopReason::targetError;
         if (isDone())
             return StopReason::samples;
@@ -295,9 +300,10 @@ StopReason Renderer::render(const KeepGoing& keepGoing) {
         step(budget.slots());
         budget.took(secondsSince(waveStart));
         const double seconds = secondsSince(start);
-        if (!keepGoing(isTimed() ? std::max(fractionDone(), seconds / settings_.seconds) : fractionDone()))
+        if (!keepGoing(isTimed() ? std::max(fractionDone(), seconds / settings_.stop.seconds)
+                                 : fractionDone()))
             return StopReason::interrupted;
-        if (isTimed() && seconds >= settings_.seconds)
+        if (isTimed() && seconds >= settings_.stop.seconds)
             return StopReason::time;
     }
 }
@@ -308,7 +314,7 @@ FilmProgress Renderer::progress() const {
 }
 
 void Renderer::continueFrom(const FilmProgress& progress, const RawFilm& film) {
-    assert(progress.passSamples <= settings_.waveSize);
+    assert(progress.passSamples <= settings_.work.waveSize);
     waves_->finish();
     filmIsEmptied_ = false;
     position_ = {};
@@ -329,9 +335,9 @@ void Renderer::step(uint32_t mostSlots) {
     const FilmBand& rows = film_.bands()[at.band];
     const uint32_t first = rows.firstRow * film_.width();
     const uint32_t pixels = rows.rows * film_.width();
-    const uint32_t slots = std::min(mostSlots, settings_.waveSize);
+    const uint32_t slots = std::min(mostSlots, settings_.work.waveSize);
     const uint32_t count = std::clamp(slots / at.passSamples, 1u, pixels - at.pixel);
-    waves_->renderWave(at.band, {first + at.pixel, count, settings_.firstSample + at.samplesDone,
+    waves_->renderWave(at.band, {first + at.pixel, count, settings_.image.firstSample + at.samplesDone,
                                  at.passSamples, first, 0, 0, 0, 0});
     at.pixel += count;
     if (at.pixel == pixels) {
@@ -348,8 +354,8 @@ void Renderer::step(uint32_t mostSlots) {
 // A render that may stop at any moment starts with passes of few samples, so that every pixel has some.
 uint32_t Renderer::nextPass() const {
     const uint32_t done = position_.samplesDone;
-    const uint32_t count = samplesPerWave(settings_.samples - done, settings_.waveSize, film_);
-    const bool mayStop = settings_.isProgressive || isTimed() || settings_.targetError > 0.0;
+    const uint32_t count = samplesPerWave(settings_.stop.samples - done, settings_.work.waveSize, film_);
+    const bool mayStop = settings_.stop.isProgressive || isTimed() || settings_.stop.targetError > 0.0;
     return mayStop ? std::min(count, std::max(1u, done)) : count;
 }
 
@@ -357,7 +363,7 @@ double Renderer::fractionDone() const {
     const double pixels = static_cast<double>(film_.width()) * film_.height();
     const uint32_t row = isDone() ? 0 : film_.bands()[position_.band].firstRow;
     const double before = static_cast<double>(row) * film_.width() + position_.pixel;
-    return (position_.samplesDone + position_.passSamples * before / pixels) / settings_.samples;
+    return (position_.samplesDone + position_.passSamples * before / pixels) / settings_.stop.samples;
 }
 
 double errorEstimate(const Rendering& rendering) {

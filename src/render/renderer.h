@@ -54,7 +54,7 @@ class Renderer {
     // pixel's.
     void step(uint32_t mostSlots);
     // Whether all samples are taken.
-    [[nodiscard]] bool isDone() const { return position_.samplesDone >= settings_.samples; }
+    [[nodiscard]] bool isDone() const { return position_.samplesDone >= settings_.stop.samples; }
     [[nodiscard]] const RenderPosition& position() const { return position_; }
     // The same, whatever the bands, and back with the film that belongs to it: what follows has the bits that
     // it would have had. Its pass must not take more samples at once than there are slots.
@@ -106,7 +106,7 @@ class Renderer {
     void emptyFilm();
     [[nodiscard]] uint32_t nextPass() const;
     [[nodiscard]] double fractionDone() const;
-    [[nodiscard]] bool isTimed() const { return settings_.seconds > 0.0; }
+    [[nodiscard]] bool isTimed() const { return settings_.stop.seconds > 0.0; }
 
     struct Setup;
     Renderer(gpu::Device& device, const RenderSettings& settings,
@@ -116,7 +116,7 @@ class Renderer {
     gpu::Device* device_;
     RenderSettings settings_;
     FrameParameters frame_;
-    uint32_t sceneFeatures_; // kFeature..., without the camera's
+    SceneFeatures sceneFeatures_; // kFeature..., without the camera's
     EstimatorKernels kernels_;
     GpuScene scene_;
     Film film_;
@@ -136,8 +136,8 @@ class Renderer {
 // Whether a renderer of settings `a` may restart() with `b`, as far as the lights are concerned.
 [[nodiscard]] bool keepsLights(const RenderSettings& a, const RenderSettings& b);
 
-// Kernels and wave size where the settings leave them to the device.
-[[nodiscard]] RenderSettings resolveKernels(RenderSettings settings, bool isCpu);
+// Fills in the schedule and the wave size where the settings leave them to the device.
+[[nodiscard]] RenderSettings resolveSchedule(RenderSettings settings, bool isCpu);
 
 // Parameters for the kernels, but for lights; the vertical field of view is kept whatever the image's aspect
 // ratio.

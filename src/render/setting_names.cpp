@@ -21,8 +21,8 @@ constexpr std::array<SettingName<Roulette>, 6> kRoulettes{{{"sqrt-throughput", R
                                                            {"constant", Roulette::constant},
                                                            {"mean-albedo", Roulette::meanAlbedo},
                                                            {"max-albedo", Roulette::maxAlbedo}}};
-constexpr std::array<SettingName<Kernels>, 3> kKernels{
-    {{"auto", Kernels::automatic}, {"fused", Kernels::fused}, {"wavefront", Kernels::wavefront}}};
+constexpr std::array<SettingName<Schedule>, 3> kSchedules{
+    {{"auto", Schedule::automatic}, {"fused", Schedule::fused}, {"wavefront", Schedule::wavefront}}};
 constexpr std::array<SettingName<Fresnel>, 2> kFresnels{
     {{"exact", Fresnel::exact}, {"schlick", Fresnel::schlick}}};
 constexpr std::array<SettingName<TextureFilter>, 2> kTextureFilters{
@@ -63,8 +63,8 @@ std::span<const SettingName<TextureFilter>> settingNames() {
     return kTextureFilters;
 }
 template <>
-std::span<const SettingName<Kernels>> settingNames() {
-    return kKernels;
+std::span<const SettingName<Schedule>> settingNames() {
+    return kSchedules;
 }
 template <>
 std::span<const SettingName<ToneCurve>> settingNames() {

@@ -35,7 +35,7 @@ std::span<const SettingName<Fresnel>> settingNames();
 template <>
 std::span<const SettingName<TextureFilter>> settingNames();
 template <>
-std::span<const SettingName<Kernels>> settingNames();
+std::span<const SettingName<Schedule>> settingNames();
 template <>
 std::span<const SettingName<ToneCurve>> settingNames();
 

@@ -43,17 +43,17 @@ void checkEstimator(const EstimatorSettings& e) {
 } // namespace
 
 void checkSettings(const RenderSettings& settings) {
-    requireRange("--size (width)", settings.width, 1, kMaxImageSide);
-    requireRange("--size (height)", settings.height, 1, kMaxImageSide);
-    requireRange("--spp", settings.samples, 1, 0x7fffffff);
-    if (settings.waveSize != 0)
-        requireRange("--wave-size", settings.waveSize, 64, 4000000);
-    requireRange("--time", settings.seconds, 0, 1e9);
-    requireRange("--target-error", settings.targetError, 0, 1e9);
-    if (!std::isfinite(settings.environmentRotation))
+    requireRange("--size (width)", settings.image.width, 1, kMaxImageSide);
+    requireRange("--size (height)", settings.image.height, 1, kMaxImageSide);
+    requireRange("--spp", settings.stop.samples, 1, 0x7fffffff);
+    if (settings.work.waveSize != 0)
+        requireRange("--wave-size", settings.work.waveSize, 64, 4000000);
+    requireRange("--time", settings.stop.seconds, 0, 1e9);
+    requireRange("--target-error", settings.stop.targetError, 0, 1e9);
+    if (!std::isfinite(settings.lighting.rotation))
         throw UsageError(
-            fmt::format("--env-rotation: {} is no angle in degrees", settings.environmentRotation));
-    requireRange("--env-intensity", settings.environmentIntensity, 0, 1e30);
+            fmt::format("--env-rotation: {} is no angle in degrees", settings.lighting.rotation));
+    requireRange("--env-intensity", settings.lighting.intensity, 0, 1e30);
     checkEstimator(settings.estimator);
 }
 
@@ -63,12 +63,12 @@ OptionPairs describe(const RenderSettings& settings) {
     const auto add = [&](const char* option, auto value) {
         pairs.emplace_back(option, fmt::format("{}", value));
     };
-    add("kernels", nameOf(settings.kernels));
-    add("size", fmt::format("{}x{}", settings.width, settings.height));
-    add("spp", settings.samples);
-    add("first-sample", settings.firstSample);
-    add("time", settings.seconds);
-    add("target-error", settings.targetError);
+    add("schedule", nameOf(settings.work.schedule));
+    add("size", fmt::format("{}x{}", settings.image.width, settings.image.height));
+    add("spp", settings.stop.samples);
+    add("first-sample", settings.image.firstSample);
+    add("time", settings.stop.seconds);
+    add("target-error", settings.stop.targetError);
     add("sampler", nameOf(e.sampler));
     add("hemisphere", nameOf(e.hemisphere));
     add("nee", e.nextEventEstimation ? "on" : "off");
@@ -84,17 +84,18 @@ OptionPairs describe(const RenderSettings& settings) {
     add("max-bounces", e.maxBounces);
     add("clamp-indirect", std::isinf(e.clampIndirect) ? "off" : fmt::format("{}", e.clampIndirect));
     add("seed", e.seed);
-    if (settings.environment)
-        add("env", fmt::format("{},{},{}", settings.environment->x, settings.environment->y,
-                               settings.environment->z));
-    if (!settings.environmentFile.empty()) {
-        add("env", settings.environmentFile);
-        add("env-rotation", settings.environmentRotation);
+    if (settings.lighting.constant)
+        add("env", fmt::format("{},{},{}", settings.lighting.constant->x, settings.lighting.constant->y,
+                               settings.lighting.constant->z));
+    if (!settings.lighting.mapFile.empty()) {
+        add("env", settings.lighting.mapFile);
+        add("env-rotation", settings.lighting.rotation);
     }
-    add("env-intensity", settings.environmentIntensity);
-    if (!settings.changedShaders.empty())
-        add("shaders", fmt::format("{}", fmt::join(settings.changedShaders, ",")));
-    pairs.insert(pairs.end(), settings.cameraOptions.begin(), settings.cameraOptions.end());
+    add("env-intensity", settings.lighting.intensity);
+    if (!settings.provenance.changedShaders.empty())
+        add("shaders", fmt::format("{}", fmt::join(settings.provenance.changedShaders, ",")));
+    pairs.insert(pairs.end(), settings.provenance.cameraOptions.begin(),
+                 settings.provenance.cameraOptions.end());
     return pairs;
 }
 

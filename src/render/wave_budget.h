@@ -13,12 +13,12 @@ class WaveBudget {
     static constexpr double kLongest = 1.0; // seconds
     static constexpr uint32_t kFewest = 4096;
 
-    // Never more than `most` slots. How fast a GPU is has to be seen: its first wave is a small one.
+    // Waves never have more than `most` slots. A GPU's speed has to be seen: its first wave is a small one.
     WaveBudget(uint32_t most, bool isCpu) : most_(most), slots_(isCpu ? most : std::min(most, kFewest)) {}
 
     [[nodiscard]] uint32_t slots() const { return slots_; }
 
-    // What a wave of so many slots took. A wave of twice as many may take twice as long.
+    // Tells how long a wave of so many slots took. A wave of twice as many may take twice as long.
     void took(double seconds) {
         if (seconds > kLongest)
             slots_ = std::max(slots_ / 2, std::min(most_, kFewest));

@@ -18,10 +18,10 @@ gpu::Buffer uploadFrame(gpu::Device& device, FrameParameters parameters, const F
 
 } // namespace
 
-std::unique_ptr<WaveRenderer> makeWaveRenderer(gpu::Device& device, Kernels kernels,
+std::unique_ptr<WaveRenderer> makeWaveRenderer(gpu::Device& device, Schedule schedule,
                                                const WaveInputs& inputs) {
-    assert(kernels != Kernels::automatic);
-    if (kernels == Kernels::fused)
+    assert(schedule != Schedule::automatic);
+    if (schedule == Schedule::fused)
         return std::make_unique<FusedPaths>(device, inputs);
     return std::make_unique<Wavefront>(device, inputs);
 }

@@ -62,8 +62,8 @@ struct WaveInputs {
     std::function<const gpu::Kernel&(std::string_view name)> kernel;
 };
 
-// Settings::kernels must not be automatic. The device must outlive the renderer.
-[[nodiscard]] std::unique_ptr<WaveRenderer> makeWaveRenderer(gpu::Device& device, Kernels kernels,
+// The schedule must not be automatic. The device must outlive the renderer.
+[[nodiscard]] std::unique_ptr<WaveRenderer> makeWaveRenderer(gpu::Device& device, Schedule schedule,
                                                              const WaveInputs& inputs);
 
 // The kernels of a schedule, bound to one band of the film.

@@ -7,8 +7,8 @@
 
 namespace lavalight {
 
-// Per mesh: whether there may be a point where a ray is not stopped. Exact for factors and vertex colours; of
-// a texture, the least alpha of the whole picture counts.
+// Whether each mesh may have a point where a ray is not stopped. Exact for factors and vertex colours; of a
+// texture, the least alpha of the whole picture counts.
 [[nodiscard]] std::vector<bool> transparentMeshes(const Scene& scene);
 
 } // namespace lavalight

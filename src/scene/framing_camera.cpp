@@ -10,7 +10,7 @@ namespace lavalight {
 namespace {
 
 constexpr double kVerticalFov = glm::pi<double>() / 4.0;
-constexpr double kMargin = 1.05; // of the distance: the outermost corners keep off the image's border
+constexpr double kMargin = 1.05; // factor of the distance: the outermost corners keep off the image's border
 
 // Offsets of the corners from the middle of a box.
 glm::dvec3 cornerOffset(const glm::dvec3& halfSize, int corner) {

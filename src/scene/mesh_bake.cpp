@@ -98,7 +98,8 @@ void repairNormals(Mesh& mesh, BakeCounts& counts) {
     }
 }
 
-// Only normals make sense of tangents: glTF has flat meshes ignore theirs.
+// Gives tangents without direction one. Without normals tangents mean nothing: glTF has flat meshes ignore
+// theirs.
 void repairTangents(Mesh& mesh, BakeCounts& counts) {
     if (mesh.normals.empty())
         mesh.tangents.clear();

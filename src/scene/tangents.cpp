@@ -38,7 +38,7 @@ UvFrame uvFrame(const Mesh& mesh, const glm::uvec3& t, const std::vector<glm::ve
 glm::vec3 alongSurface(const glm::vec3& v, const glm::vec3& normal) {
     const glm::vec3 projected = v - normal * glm::dot(normal, v);
     const float length = glm::length(projected);
-    // Below, the difference is rounding: the direction would be noise.
+    // Below this length the difference is rounding: the direction would be noise.
     return length > 1e-6f * glm::length(v) ? projected / length : glm::vec3(0.0f);
 }
 
@@ -126,7 +126,7 @@ std::vector<bool> splitMirrored(Mesh& mesh, const std::vector<UvFrame>& frames) 
     return isMirrored;
 }
 
-// At one place: of the plain triangles around, and of the mirrored ones.
+// Sums of tangents at one place: of the plain triangles around it, and of the mirrored ones.
 using Sums = std::array<glm::vec3, 2>;
 
 // The triangles' tangents, laid along the surface and weighted by angle, added up at each welded vertex.

@@ -11,21 +11,21 @@ namespace lavalight {
 namespace {
 
 SampleRanges rangesOf(const RenderSettings& settings) {
-    return {{settings.firstSample, settings.firstSample + settings.samples}};
+    return {{settings.image.firstSample, settings.image.firstSample + settings.stop.samples}};
 }
 
 // What an error estimate is asked at: the ends of passes, which these decide.
 std::vector<std::string> alsoDecisive(const RenderSettings& settings) {
-    if (settings.targetError > 0.0)
+    if (settings.stop.targetError > 0.0)
         return {"target-error", "spp", "wave-size", "band-rows"};
     return {};
 }
 
 Metadata headerOf(const RenderReport& report) {
     Metadata metadata = exrMetadata(report);
-    if (report.settings.targetError > 0.0) {
-        metadata.emplace_back("option:wave-size", fmt::format("{}", report.settings.waveSize));
-        metadata.emplace_back("option:band-rows", fmt::format("{}", report.settings.bandRows));
+    if (report.settings.stop.targetError > 0.0) {
+        metadata.emplace_back("option:wave-size", fmt::format("{}", report.settings.work.waveSize));
+        metadata.emplace_back("option:band-rows", fmt::format("{}", report.settings.work.bandRows));
     }
     return metadata;
 }
@@ -57,10 +57,10 @@ void continueFilm(Renderer& renderer, const FilmFile& file, const std::string& n
     if (file.ranges.size() != 1 || file.ranges.front().first != wanted.first)
         refuse(fmt::format("it is of samples {}, this render of {}", textOf(file.ranges), textOf({wanted})));
     const FilmProgress& progress = file.progress;
-    if (progress.samples + progress.passSamples > report.settings.samples)
+    if (progress.samples + progress.passSamples > report.settings.stop.samples)
         refuse(fmt::format("it has {} samples per pixel already, this render is of {}",
-                           progress.samples + progress.passSamples, report.settings.samples));
-    if (progress.passSamples > report.settings.waveSize)
+                           progress.samples + progress.passSamples, report.settings.stop.samples));
+    if (progress.passSamples > report.settings.work.waveSize)
         refuse(fmt::format("the pass under way takes {} samples per pixel at once: give that --wave-size, "
                            "or a larger one",
                            progress.passSamples));

@@ -11,8 +11,8 @@
 
 namespace lavalight {
 
-// The film as it is, with its header. The report holds the inputs, seconds and rays so far, and, if it has
-// stopped, why.
+// The renderer's film as it is, with its header. The report holds the inputs, seconds and rays so far, and,
+// if it has stopped, why.
 [[nodiscard]] FilmFile recordFilm(const Renderer& renderer, const Scene& scene, RenderReport report);
 
 // Lets the renderer go on where the film of the file `name` stands; the report holds the renderer's inputs.

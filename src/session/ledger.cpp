@@ -12,8 +12,9 @@ std::vector<LedgerEntry> makeLedger(const Scene& scene, const RenderSettings& se
                                     const FilmTallies& tallies, StopReason stop) {
     std::vector<LedgerEntry> ledger;
     const EstimatorSettings& estimator = settings.estimator;
-    if (!settings.changedShaders.empty())
-        ledger.push_back({"changed-shaders", fmt::format("{}", fmt::join(settings.changedShaders, ", "))});
+    if (!settings.provenance.changedShaders.empty())
+        ledger.push_back(
+            {"changed-shaders", fmt::format("{}", fmt::join(settings.provenance.changedShaders, ", "))});
     if (std::isfinite(estimator.clampIndirect))
         ledger.push_back(
             {"clamp-indirect", fmt::format("indirect light was limited to {}", estimator.clampIndirect)});
@@ -22,7 +23,7 @@ std::vector<LedgerEntry> makeLedger(const Scene& scene, const RenderSettings& se
                                                             scene.punctualLights.size())});
     if (stop == StopReason::targetError)
         ledger.push_back(
-            {"stopped-on-estimate", fmt::format("the error estimate reached {}", settings.targetError)});
+            {"stopped-on-estimate", fmt::format("the error estimate reached {}", settings.stop.targetError)});
     if (scene.environmentMap && scene.environmentMap->badTexels > 0)
         ledger.push_back(
             {"environment-values",

@@ -12,7 +12,7 @@
 
 namespace lavalight {
 
-// Empty for an unbiased image of everything that the scene asks for.
+// The ledger's entries; none for an unbiased image of everything that the scene asks for.
 [[nodiscard]] std::vector<LedgerEntry> makeLedger(const Scene& scene, const RenderSettings& settings,
                                                   const FilmTallies& tallies, StopReason stop);
 

@@ -117,8 +117,9 @@ Metadata exrMetadata(const RenderReport& report) {
                       {"camera", report.camera},
                       {"device", report.device.name},
                       {"driver", report.device.driver},
-                      {"samples-per-pixel", samplesPerPixel(report.samples, uint64_t{report.settings.width} *
-                                                                                report.settings.height)},
+                      {"samples-per-pixel",
+                       samplesPerPixel(report.samples,
+                                       uint64_t{report.settings.image.width} * report.settings.image.height)},
                       {"render-seconds", fmt::format("{:.3f}", report.renderSeconds)},
                       {"complete", report.stop == StopReason::interrupted ? "no, interrupted" : "yes"},
                       {"bias-ledger", ledgerText(report.ledger)}};
@@ -142,7 +143,7 @@ std::string reportJson(const RenderReport& report) {
     json["settings"] = pairsJson(describeOptions(report));
     if (report.tone)
         json["png"] = {{"tonemap", nameOf(report.tone->curve)}, {"exposure", report.tone->exposure}};
-    json["waveSize"] = report.settings.waveSize;
+    json["waveSize"] = report.settings.work.waveSize;
     json["complete"] = report.stop != StopReason::interrupted;
     json["stoppedBy"] = nameOf(report.stop);
     json["seconds"] = stagesJson(report.stages);

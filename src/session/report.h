@@ -17,7 +17,7 @@
 
 namespace lavalight {
 
-// Wall-clock seconds: of the stages, in order; then of parts of "prepare", which run side by side, and from
+// Wall-clock seconds of the stages, in order; then of parts of "prepare", which run side by side, and from
 // the start of the process to the end of the first wave.
 using StageTimes = std::vector<std::pair<std::string, double>>;
 
@@ -27,7 +27,7 @@ struct RenderReport {
     std::string camera;
     RenderSettings settings;
     gpu::DeviceDescription device;
-    Fingerprints content; // of what was rendered
+    Fingerprints content; // fingerprints of what was rendered
     StageTimes stages;
     double renderSeconds = 0.0;
     gpu::KernelTimes kernels;
@@ -40,15 +40,15 @@ struct RenderReport {
     std::vector<LedgerEntry> ledger;
     std::vector<std::string> warnings;
     glm::dvec3 meanRadiance{0.0};
-    double meanVariance = 0.0;  // of the pixels' means, over pixels and channels
+    double meanVariance = 0.0;  // variance of the pixels' means, averaged over pixels and channels
     double errorEstimate = 0.0; // see errorEstimate()
     StopReason stop = StopReason::samples;
-    std::optional<ToneSettings> tone; // of the PNG, if there is one
+    std::optional<ToneSettings> tone; // tone mapping of the PNG, if there is one
 };
 
-// What was asked for.
+// Fills in what was asked for.
 void fillInputs(RenderReport& report, const Scene& scene, const RenderSettings& settings);
-// What came of it, with the ledger. `rendering` is the renderer's; the inputs are there already.
+// Fills in what came of it, with the ledger. `rendering` is the renderer's; the inputs are there already.
 void fillResults(RenderReport& report, const Renderer& renderer, const gpu::Device& device,
                  const Rendering& rendering, const Scene& scene);
 

@@ -27,7 +27,7 @@ float elevation(const glm::vec3& direction) {
     return std::asin(std::clamp(direction.y, -1.0f, 1.0f));
 }
 
-// Right-handed and orthonormal again, whatever rounding did.
+// Makes the axes right-handed and orthonormal again, whatever rounding did.
 void straighten(Camera& camera) {
     camera.forward = glm::normalize(camera.forward);
     camera.right = glm::normalize(glm::cross(camera.forward, camera.up));
@@ -123,7 +123,7 @@ std::optional<glm::vec2> project(const Camera& camera, float aspect, const glm::
     const glm::vec3 local(glm::dot(offset, camera.right), glm::dot(offset, camera.up),
                           glm::dot(offset, camera.forward));
     if (camera.projection == Projection::panorama) {
-        // As lib/math/equirectangular.glsl: a panorama has the world's axes.
+        // A panorama has the world's axes, as in lib/math/equirectangular.glsl.
         constexpr float kPi = std::numbers::pi_v<float>;
         const glm::vec3 direction = glm::normalize(offset);
         const float u = 0.5f + std::atan2(direction.z, direction.x) / (2.0f * kPi);

@@ -11,7 +11,7 @@
 
 namespace lavalight {
 
-// World +Y is up. The camera keeps its roll.
+// A camera that is moved in a world whose +Y is up. The camera keeps its roll.
 class CameraRig {
   public:
     // Orbits about the point in the middle of the image at the distance of the scene's middle.
@@ -19,7 +19,7 @@ class CameraRig {
 
     [[nodiscard]] const Camera& camera() const { return camera_; }
     [[nodiscard]] const glm::vec3& pivot() const { return pivot_; }
-    // From the camera to the pivot, metres.
+    // Distance from the camera to the pivot, metres.
     [[nodiscard]] float distance() const;
 
     // Turns the camera about the pivot, radians to the right and up; never over the poles.
@@ -36,7 +36,7 @@ class CameraRig {
 
     // Turns the camera towards a point, and orbits about it from now on.
     void centreOn(const glm::vec3& point);
-    // What lies as far ahead as this point is sharp.
+    // Focuses: what lies as far ahead as this point is sharp.
     void focusOn(const glm::vec3& point);
     void setLens(float radius) { camera_.lensRadius = radius; }
     void setFocusDistance(float metres) { camera_.focusDistance = metres; }

@@ -14,11 +14,11 @@ namespace lavalight {
 
 // What a user asks for with the mouse over the picture. Places are in screen coordinates.
 struct ControlAnswer {
-    bool hasMoved = false;            // the camera
-    bool isFlying = false;            // a key that moves it is held down
-    std::optional<glm::vec2> inspect; // clicked
-    std::optional<glm::vec2> centre;  // clicked twice
-    std::optional<glm::vec2> focus;   // clicked with F held down
+    bool hasMoved = false;            // the camera has moved
+    bool isFlying = false;            // a key that moves the camera is held down
+    std::optional<glm::vec2> inspect; // place that was clicked
+    std::optional<glm::vec2> centre;  // place that was clicked twice
+    std::optional<glm::vec2> focus;   // place that was clicked with F held down
 };
 
 // Reads what ImGui has of the input and leaves to the picture; `window` in screen coordinates.

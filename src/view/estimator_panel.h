@@ -5,8 +5,8 @@
 
 namespace lavalight {
 
-// Draws them with what each means. Settings that contradict each other are made to agree. Whether any was
-// changed.
+// Draws the settings with what each means and makes those agree that contradict each other. Returns whether
+// any was changed.
 bool drawEstimator(EstimatorSettings& settings);
 
 } // namespace lavalight

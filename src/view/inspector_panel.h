@@ -8,7 +8,7 @@
 
 namespace lavalight {
 
-// Draws the table. Whether another sample's path is asked for: `sample` is then its number.
+// Draws the table. Returns whether another sample's path is asked for: `sample` is then its number.
 bool drawInspection(const PixelInspection& inspection, uint32_t& sample);
 
 // Draws the path over a window of that many points, as the view's camera sees it.

@@ -23,9 +23,9 @@ struct LivePicture {
 };
 
 struct LiveStatistics {
-    uint32_t samples = 0; // of every pixel
-    double seconds = 0.0; // that they took
-    uint64_t paths = 0;   // begun so far
+    uint32_t samples = 0; // samples of every pixel
+    double seconds = 0.0; // time that these samples took
+    uint64_t paths = 0;   // paths begun so far
     RayCounts rays;
     double error = -1.0; // estimated relMSE; negative: not known yet
     gpu::KernelTimes kernels;
@@ -40,11 +40,11 @@ struct LiveView {
 
 // A pixel, and one of its paths.
 struct PixelInspection {
-    std::shared_ptr<const Scene> scene; // that was rendered: its indices are those of the path
+    std::shared_ptr<const Scene> scene; // the scene that was rendered: its indices are those of the path
     glm::uvec2 pixel{0};
     glm::vec3 radiance{0.0f}; // mean of its samples
-    glm::vec3 variance{0.0f}; // of that mean
-    uint32_t count = 0;       // of samples
+    glm::vec3 variance{0.0f}; // variance of that mean
+    uint32_t count = 0;       // number of samples
     uint32_t sample = 0;      // whose path this is
     TracedPath path;
 };

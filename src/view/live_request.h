@@ -25,11 +25,11 @@ struct LiveRequest {
 // What a change of the request costs.
 enum class Restart {
     nothing, // the image goes on; at most it is shown otherwise
-    image,   // from its first sample; maybe with other kernels
-    scene    // which goes to the device anew
+    image,   // the image starts from its first sample; maybe with other kernels
+    scene    // the scene goes to the device anew
 };
 
-// Of the image of `a`'s settings when `b` is asked for.
+// What it costs the image of `a` that `b` is asked for.
 [[nodiscard]] Restart restartsImage(const LiveRequest& a, const LiveRequest& b);
 
 } // namespace lavalight

@@ -29,16 +29,17 @@ uint32_t coarse(uint32_t size, uint32_t by) {
 
 RenderSettings LiveSide::filmSettings(const LiveRequest& request) const {
     RenderSettings settings = request.settings;
-    settings.isProgressive = true;
+    settings.stop.isProgressive = true;
     if (!request.isMoving)
         return settings;
     const auto fits = [&](uint32_t by) {
-        return secondsPerPath_ * coarse(settings.width, by) * coarse(settings.height, by) <= kFrameSeconds;
+        return secondsPerPath_ * coarse(settings.image.width, by) * coarse(settings.image.height, by) <=
+               kFrameSeconds;
     };
     const auto found = std::find_if(kCoarseness.begin(), kCoarseness.end(), fits);
     const uint32_t by = found == kCoarseness.end() ? kCoarseness.back() : *found;
-    settings.width = coarse(settings.width, by);
-    settings.height = coarse(settings.height, by);
+    settings.image.width = coarse(settings.image.width, by);
+    settings.image.height = coarse(settings.image.height, by);
     return settings;
 }
 
@@ -130,7 +131,7 @@ PixelInspection LiveSide::inspect(const glm::uvec2& pixel, uint32_t sample) {
     const Film& film = renderer_->film();
     // A coarse film has a pixel for several of the window's, and the window may have been larger when it was
     // asked.
-    const glm::uvec2 size(request_->settings.width, request_->settings.height);
+    const glm::uvec2 size(request_->settings.image.width, request_->settings.image.height);
     inspection.pixel = glm::min(pixel, size - 1u) * glm::uvec2(film.width(), film.height()) / size;
     const Rendering rendering = film.resolve();
     const size_t at = size_t{inspection.pixel.y} * film.width() + inspection.pixel.x;

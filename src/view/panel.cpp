@@ -21,7 +21,7 @@ void drawEstimators(ViewState& view) {
     if (ImGui::CollapsingHeader("Estimator", ImGuiTreeNodeFlags_DefaultOpen)) {
         ImGui::PushID("left");
         drawEstimator(view.settings.estimator);
-        choose("kernels", view.settings.kernels,
+        choose("schedule", view.settings.work.schedule,
                "One kernel for whole paths, or one for each step, with queues between them");
         tick("compare", view.isSplit, "Renders other settings beside these, for the same time");
         ImGui::PopID();

@@ -15,24 +15,24 @@ namespace lavalight {
 
 struct PanelAnswer {
     bool wantsSave = false;
-    bool wantsScene = false; // read again, for its variant or moment
+    bool wantsScene = false; // the scene is to be read again, for its variant or moment
 };
 
-// The main panel, with the statistics of both sides as far as there are any.
+// Draws the main panel, with the statistics of both sides as far as there are any.
 [[nodiscard]] PanelAnswer
 drawPanel(ViewState& view,
           const std::pair<std::optional<LiveStatistics>, std::optional<LiveStatistics>>& statistics);
 
-// The inspector's window. Whether another sample's path is asked for.
+// Draws the inspector's window. Returns whether another sample's path is asked for.
 bool drawInspector(const PixelInspection& inspection, uint32_t& sample);
 
-// The line between two images, to be dragged.
+// Draws the line between two images, to be dragged.
 void drawSplit(ViewState& view, const glm::vec2& window);
 
-// What keys and mouse do.
+// Draws what keys and mouse do.
 void drawKeys(bool& isOpen);
 
-// Messages with whether each is an error, until they are closed.
+// Draws messages, each with whether it is an error, until they are closed.
 void drawMessages(std::vector<std::pair<std::string, bool>>& messages, const glm::vec2& window);
 
 } // namespace lavalight

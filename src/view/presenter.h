@@ -23,12 +23,12 @@ class Presenter {
     Presenter(const Presenter&) = delete;
     Presenter& operator=(const Presenter&) = delete;
 
-    // What is shown from now on as picture 0 or 1.
+    // Sets what is shown from now on as picture 0 or 1.
     void setPicture(size_t which, const LivePicture& picture);
 
-    // Between these two, ImGui takes commands. A window without area is not drawn.
+    // ImGui takes commands between beginFrame() and endFrame(). A window without area is not drawn.
     void beginFrame();
-    // Picture 0 over the whole window; right of `splitAt`, a share of its width, picture 1.
+    // Shows picture 0 over the whole window; right of `splitAt`, a share of its width, picture 1.
     void endFrame(float splitAt);
 
     // Throws Error with the first message of the validation layer.
@@ -56,12 +56,12 @@ class Presenter {
     vk::raii::CommandPool pool_ = nullptr;
     std::vector<vk::raii::CommandBuffer> commands_; // exactly one
     vk::raii::Semaphore acquired_ = nullptr;
-    vk::raii::Fence fence_ = nullptr; // of the frame under way
+    vk::raii::Fence fence_ = nullptr; // signalled when the frame under way is drawn
     vk::raii::DescriptorPool descriptors_ = nullptr;
     std::optional<Swapchain> swapchain_;
     std::vector<PictureTexture> pictures_; // exactly two
     bool hasOverlay_ = false;
-    bool wantsSwapchain_ = false; // another than there is
+    bool wantsSwapchain_ = false; // the surface needs another swapchain
 };
 
 } // namespace lavalight

@@ -14,8 +14,8 @@ struct ImageFiles {
     std::string png;
 };
 
-// The image so far: as `lavalight render` writes it, header and all, and as the window shows it. There must
-// be one. Says in a line what was written. Throws Error.
+// Writes the image so far, of which there must be one: as `lavalight render` does, header and all, and as the
+// window shows it. Returns a line that says what was written. Throws Error.
 [[nodiscard]] std::string saveImage(const LiveSide& side, ToneMapper& tone, const gpu::Device& device,
                                     const ImageFiles& files);
 

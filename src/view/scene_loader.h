@@ -18,7 +18,7 @@ namespace lavalight {
 struct SceneOrder {
     std::string source;
     ImportOptions import;
-    RenderSettings settings; // whose environment counts
+    LightingSettings lighting;
 };
 
 class SceneLoader {

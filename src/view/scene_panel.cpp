@@ -55,10 +55,10 @@ void drawLens(ViewState& view) {
 void drawEnvironment(ViewState& view) {
     RenderSettings& settings = view.settings;
     if (view.scene->environmentMap) {
-        ImGui::SliderFloat("map's rotation", &settings.environmentRotation, -180.0f, 180.0f, "%.0f deg");
+        ImGui::SliderFloat("map's rotation", &settings.lighting.rotation, -180.0f, 180.0f, "%.0f deg");
         explain("Turns the environment map about the vertical");
     }
-    ImGui::DragFloat("environment", &settings.environmentIntensity, 0.01f, 0.0f, 1000.0f, "times %.2f",
+    ImGui::DragFloat("environment", &settings.lighting.intensity, 0.01f, 0.0f, 1000.0f, "times %.2f",
                      ImGuiSliderFlags_AlwaysClamp);
     explain("Multiplies what shines where nothing is hit");
 }

@@ -5,10 +5,10 @@
 
 namespace lavalight {
 
-// Whether the scene must be read again for what was changed.
+// Draws the scene's settings. Returns whether the scene must be read again for what was changed.
 bool drawScene(ViewState& view);
 
-// Tone mapping and exposure, which restart nothing.
+// Draws tone mapping and exposure, which restart nothing.
 void drawTone(ToneSettings& tone);
 
 } // namespace lavalight

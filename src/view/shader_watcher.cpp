@@ -14,10 +14,10 @@ constexpr std::chrono::milliseconds kLookEvery(100);
 
 } // namespace
 
-ShaderWatcher::ShaderWatcher(std::string folder, std::shared_ptr<ShaderOverlay> first, Kernels kernels,
+ShaderWatcher::ShaderWatcher(std::string folder, std::shared_ptr<ShaderOverlay> first, Schedule schedule,
                              std::function<void()> wake)
     : folder_(std::move(folder)), wake_(std::move(wake)), saves_(folder_), overlay_(std::move(first)),
-      kernels_(kernels), thread_([this] { run(); }) {}
+      schedule_(schedule), thread_([this] { run(); }) {}
 
 ShaderWatcher::~ShaderWatcher() {
     isEnding_ = true;
@@ -39,7 +39,7 @@ void ShaderWatcher::run() {
 
 ShaderWatcher::Contents ShaderWatcher::contentsOf(ShaderOverlay& overlay) const {
     Contents contents;
-    for (const std::string_view name : estimatorKernelNames(kernels_))
+    for (const std::string_view name : estimatorKernelNames(schedule_))
         contents[std::string(name)] = overlay.kernel(name).content;
     for (const char* name : {"albedo", "tonemap"})
         contents[name] = overlay.kernel(name).content;

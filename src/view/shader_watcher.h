@@ -21,14 +21,14 @@ class ShaderWatcher {
   public:
     // `first`: the folder as it is now. `wake` is called, from another thread, when there is a change. Throws
     // Error where there is no such folder.
-    ShaderWatcher(std::string folder, std::shared_ptr<ShaderOverlay> first, Kernels kernels,
+    ShaderWatcher(std::string folder, std::shared_ptr<ShaderOverlay> first, Schedule schedule,
                   std::function<void()> wake);
     ~ShaderWatcher();
     ShaderWatcher(const ShaderWatcher&) = delete;
     ShaderWatcher& operator=(const ShaderWatcher&) = delete;
 
-    // Which kernels matter from now on; not automatic.
-    void use(Kernels kernels) { kernels_ = kernels; }
+    // The schedule whose kernels matter from now on; not automatic.
+    void use(Schedule schedule) { schedule_ = schedule; }
 
     struct Change {
         std::vector<std::string> files;
@@ -50,7 +50,7 @@ class ShaderWatcher {
     std::function<void()> wake_;
     FileWatch saves_;
     std::shared_ptr<ShaderOverlay> overlay_; // the newest that compiles
-    std::atomic<Kernels> kernels_;
+    std::atomic<Schedule> schedule_;
     std::atomic<bool> isEnding_ = false;
     std::mutex mutex_;
     std::optional<Change> change_;

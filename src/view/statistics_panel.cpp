@@ -33,7 +33,7 @@ void drawKernels(const LiveStatistics& s) {
 // Of all paths, in per cent: how many come to each bounce, and how many end there.
 void drawPaths(const std::vector<uint64_t>& raysPerBounce) {
     if (raysPerBounce.empty() || raysPerBounce.front() == 0) {
-        ImGui::TextDisabled("queues: with wavefront kernels");
+        ImGui::TextDisabled("queues: with the schedule wavefront");
         return;
     }
     std::vector<float> alive;

@@ -5,7 +5,7 @@
 
 namespace lavalight {
 
-// Of one image; `title` stands above it.
+// Draws the statistics of one image under `title`.
 void drawStatistics(const char* title, const LiveStatistics& statistics);
 
 } // namespace lavalight

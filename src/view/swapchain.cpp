@@ -9,7 +9,8 @@
 namespace lavalight {
 namespace {
 
-// Newest picture first, without tearing, where the surface can; waiting for the screen is always possible.
+// The mode that shows the newest picture first, without tearing, where the surface can; waiting for the
+// screen is always possible.
 vk::PresentModeKHR choosePresentMode(const vk::raii::PhysicalDevice& physical, vk::SurfaceKHR surface) {
     const auto modes = physical.getSurfacePresentModesKHR(surface);
     const bool hasMailbox =
@@ -22,7 +23,7 @@ uint32_t chooseImageCount(const vk::SurfaceCapabilitiesKHR& can) {
     return std::min(std::max(can.minImageCount + 1, 2u), most);
 }
 
-// What the surface says, unless it leaves that to us.
+// The size that the surface states, unless it leaves that to us.
 vk::Extent2D chooseExtent(const vk::SurfaceCapabilitiesKHR& can, const glm::uvec2& pixels) {
     if (can.currentExtent.width != std::numeric_limits<uint32_t>::max())
         return can.currentExtent;

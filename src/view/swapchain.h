@@ -10,7 +10,8 @@
 
 namespace lavalight {
 
-// 8 bits a channel that are shown as they are, not converted to sRGB, if the surface has such. Throws Error.
+// A format of 8 bits a channel that are shown as they are, not converted to sRGB, if the surface has one.
+// Throws Error.
 [[nodiscard]] vk::SurfaceFormatKHR chooseSurfaceFormat(const vk::raii::PhysicalDevice& physical,
                                                        vk::SurfaceKHR surface);
 
@@ -21,22 +22,22 @@ class Swapchain {
         const vk::raii::Device& device;
         vk::SurfaceKHR surface;
         vk::SurfaceFormatKHR format;
-        vk::RenderPass pass; // with which framebuffers are made
+        vk::RenderPass pass; // the pass that framebuffers are made for
     };
 
-    // For a window of that many pixels, neither of them 0. `before` is what it takes the place of, or null.
+    // For a window of that many pixels, neither number 0. Takes the place of `before`, which may be null.
     Swapchain(const Place& place, const glm::uvec2& pixels, vk::SwapchainKHR before);
 
     struct Image {
         uint32_t index = 0;
         vk::Image image;
         vk::Framebuffer framebuffer;
-        vk::Semaphore drawn; // to be signalled when it is
+        vk::Semaphore drawn; // to be signalled when the image is drawn
     };
-    // Waits for an image; `ready` is signalled once it may be drawn on. Nothing: the window has changed, and
-    // wants another swapchain.
+    // Waits for an image; `ready` is signalled once it may be drawn on. Returns nothing if the window has
+    // changed and wants another swapchain.
     [[nodiscard]] std::optional<Image> acquire(vk::Semaphore ready);
-    // Shows it; false: the window wants another swapchain.
+    // Shows the image; false: the window wants another swapchain.
     [[nodiscard]] bool present(const vk::raii::Queue& queue, const Image& image);
 
     [[nodiscard]] const glm::uvec2& pixels() const { return pixels_; }
@@ -51,7 +52,8 @@ class Swapchain {
     std::vector<vk::Image> images_;
     std::vector<vk::raii::ImageView> views_;
     std::vector<vk::raii::Framebuffer> framebuffers_;
-    std::vector<vk::raii::Semaphore> drawn_; // of each image: free again once it is acquired again
+    std::vector<vk::raii::Semaphore>
+        drawn_; // one for each image, free again once the image is acquired again
 };
 
 } // namespace lavalight

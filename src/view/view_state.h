@@ -17,12 +17,12 @@ struct ViewState {
     ImportOptions import;
     std::shared_ptr<const Scene> scene;
     CameraRig rig;
-    Camera home;             // that reset goes back to
-    OptionPairs homeOptions; // of `lavalight render`, that place it
+    Camera home;             // camera that reset goes back to
+    OptionPairs homeOptions; // options of `lavalight render` that place it
     RenderSettings settings;
     ToneSettings tone;
     bool isSplit = false;
-    EstimatorSettings other{}; // right of splitAt
+    EstimatorSettings other{}; // settings of the image right of splitAt
     float splitAt = 0.5f;      // share of the window's width
     bool showsPanel = true;
     bool showsKeys = false;

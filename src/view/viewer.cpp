@@ -11,6 +11,7 @@
 
 #include "base/log.h"
 #include "render/renderer.h"
+#include "session/lit_scene.h"
 #include "view/controls.h"
 #include "view/inspector_panel.h"
 #include "view/panel.h"
@@ -28,7 +29,8 @@ constexpr int kFramesToSettle = 3;
 constexpr std::chrono::milliseconds kStillAfter(200);
 
 Window makeWindow(const ViewState& view) {
-    return {fmt::format("Lavalight: {}", view.source), {view.settings.width, view.settings.height}};
+    return {fmt::format("Lavalight: {}", view.source),
+            {view.settings.image.width, view.settings.image.height}};
 }
 
 // The first of NAME-1, NAME-2, ... of which no image is there.
@@ -41,6 +43,10 @@ std::string freeName(const std::string& source) {
     }
 }
 
+Scene loadOrder(const SceneOrder& order) {
+    return loadLitScene(order.source, order.import, order.lighting);
+}
+
 bool isEnvironment(const std::string& path) {
     const std::string extension = std::filesystem::path(path).extension().string();
     return extension == ".hdr" || extension == ".exr" || extension == ".pic";
@@ -50,11 +56,11 @@ bool isEnvironment(const std::string& path) {
 
 Viewer::Viewer(ViewerConfig config)
     : view_(std::move(config.view)), window_(makeWindow(view_)), presenter_(window_, config.device.validate),
-      render_(config.device, &Window::wake), loader_(std::move(config.load), &Window::wake),
+      render_(config.device, &Window::wake), loader_(loadOrder, &Window::wake),
       shaders_(std::move(config.shaders)) {
-    view_.settings = resolveKernels(view_.settings, render_.device().isCpu);
+    view_.settings = resolveSchedule(view_.settings, render_.device().isCpu);
     if (!config.watched.empty())
-        watcher_.emplace(config.watched, shaders_, view_.settings.kernels, &Window::wake);
+        watcher_.emplace(config.watched, shaders_, view_.settings.work.schedule, &Window::wake);
     ImGui::GetIO().FontGlobalScale = window_.textScale() / window_.pixelsPerPoint().y;
 }
 
@@ -121,7 +127,7 @@ void Viewer::receiveScene() {
     const bool isOther = outcome->order.source != view_.source;
     if (!outcome->scene) {
         tell(outcome->error, true);
-        view_.settings.environmentFile = sent_ ? sent_->settings.environmentFile : std::string();
+        view_.settings.lighting.mapFile = sent_ ? sent_->settings.lighting.mapFile : std::string();
         return;
     }
     for (const std::string& warning : outcome->scene->warnings)
@@ -157,7 +163,7 @@ void Viewer::takeInspection(const PixelInspection& inspection) {
     if (inspection.scene != view_.scene)
         return; // another one came in between
     const bool isHit =
-        !inspection.path.vertices.empty() && (inspection.path.vertices.front().triangle != kNoTriangle);
+        !inspection.path.vertices.empty() && isSurface(inspection.path.vertices.front().surface);
     if (purpose_ == Purpose::look)
         inspection_ = inspection;
     else if (isHit && purpose_ == Purpose::centre)
@@ -191,17 +197,17 @@ void Viewer::takeKeys() {
 void Viewer::takeDrops() {
     for (const std::string& path : window_.takeDrops()) {
         if (isEnvironment(path)) {
-            view_.settings.environmentFile = path;
-            view_.settings.environment.reset();
+            view_.settings.lighting.mapFile = path;
+            view_.settings.lighting.constant.reset();
             reload();
         } else {
-            loader_.order({path, {.allowsExternal = view_.import.allowsExternal}, view_.settings});
+            loader_.order({path, {.allowsExternal = view_.import.allowsExternal}, view_.settings.lighting});
         }
     }
 }
 
 void Viewer::reload() {
-    loader_.order({view_.source, view_.import, view_.settings});
+    loader_.order({view_.source, view_.import, view_.settings.lighting});
 }
 
 void Viewer::save() {
@@ -253,10 +259,10 @@ void Viewer::send() {
     const glm::uvec2 pixels = window_.pixels();
     if (pixels.x == 0 || pixels.y == 0)
         return; // minimised: the image is kept
-    view_.settings.width = pixels.x;
-    view_.settings.height = pixels.y;
+    view_.settings.image.width = pixels.x;
+    view_.settings.image.height = pixels.y;
     // For the record of saved images.
-    view_.settings.cameraOptions =
+    view_.settings.provenance.cameraOptions =
         view_.rig.camera() == view_.home ? view_.homeOptions : cameraOptions(view_.rig);
     if (!view_.isSplit)
         view_.other = view_.settings.estimator;
@@ -272,7 +278,7 @@ void Viewer::send() {
     if (inspection_ && (!sent_ || restartsImage(*sent_, request) != Restart::nothing))
         inspection_.reset(); // it was of another image
     if (watcher_)
-        watcher_->use(request.settings.kernels);
+        watcher_->use(request.settings.work.schedule);
     sent_ = request;
     isReady_ = false;
     render_.show(request);

@@ -20,9 +20,8 @@
 namespace lavalight {
 
 struct ViewerConfig {
-    ViewState view; // with its scene; settings.width and height are the window's
+    ViewState view; // with its scene; settings.image has the window's size
     gpu::DeviceConfig device;
-    SceneLoader::Load load;
     std::shared_ptr<ShaderOverlay> shaders; // null: as built
     std::string watched;                    // folder whose shaders are compiled at every save; empty: none
 };

@@ -26,7 +26,7 @@ inline std::string nameOrNumber(const std::vector<std::string>& names, size_t in
     return names[index].empty() ? "number " + std::to_string(index) : names[index];
 }
 
-// An entry of a list; `text` may come twice, or hold ImGui's marks. Whether it was chosen.
+// Draws an entry of a list, whose `text` may come twice or hold ImGui's marks. Returns whether it was chosen.
 inline bool offer(size_t index, const std::string& text, bool isChosen) {
     const bool isPicked = ImGui::Selectable(("##" + std::to_string(index)).c_str(), isChosen);
     ImGui::SameLine(0.0f, 0.0f);
@@ -34,7 +34,7 @@ inline bool offer(size_t index, const std::string& text, bool isChosen) {
     return isPicked;
 }
 
-// A setting by its names on the command line. Whether it was changed.
+// Draws a setting by its names on the command line. Returns whether it was changed.
 template <typename Value>
 bool choose(const char* label, Value& value, const char* meaning) {
     bool isChanged = false;
@@ -57,7 +57,7 @@ inline bool tick(const char* label, bool& value, const char* meaning) {
     return isChanged;
 }
 
-// A number from `least` to `most`.
+// Draws a number from `least` to `most`. Returns whether it was changed.
 inline bool count(const char* label, uint32_t& value, uint32_t least, uint32_t most, const char* meaning) {
     int now = static_cast<int>(value);
     const bool isMoved = ImGui::DragInt(label, &now, 0.2f, static_cast<int>(least), static_cast<int>(most),

@@ -17,7 +17,7 @@ std::string reason() {
     return glfwGetError(&text) == GLFW_NO_ERROR || text == nullptr ? "GLFW does not say why" : text;
 }
 
-// GLFW as long as there is a window.
+// Starts GLFW, which runs as long as there is a window.
 void start() {
     if (glfwInit() != GLFW_TRUE)
         throw Error(fmt::format("cannot open a window: {}; is there a desktop here (DISPLAY or "

@@ -13,8 +13,8 @@ namespace lavalight {
 
 class Window {
   public:
-    // An inner area of that many screen coordinates. Throws Error where there is no desktop to open it on,
-    // or no Vulkan for its windows. One at a time.
+    // Opens a window with an inner area of that many screen coordinates. Throws Error where there is no
+    // desktop to open it on, or no Vulkan for its windows. There may be one window at a time.
     Window(const std::string& title, const glm::uvec2& size);
     ~Window();
     Window(const Window&) = delete;
@@ -58,7 +58,7 @@ class Window {
     static void keepDrops(GLFWwindow* window, int count, const char** paths);
     static void keepKey(GLFWwindow* window, int key, int scancode, int action, int modifiers);
     static void keepButton(GLFWwindow* window, int button, int action, int modifiers);
-    static void keepMove(GLFWwindow* window, double x, double y); // of the mouse, or of its wheel
+    static void keepMove(GLFWwindow* window, double x, double y); // motion of the mouse, or of its wheel
 
     GLFWwindow* window_ = nullptr;
     Events events_;

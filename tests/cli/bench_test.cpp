@@ -40,7 +40,7 @@ TEST_F(Bench, TellsOfEachKindOfRayWhatBothTracersDid) {
     std::vector<std::string> kinds;
     for (const json& row : report.at("rays")) {
         kinds.push_back(row.at("kind"));
-        EXPECT_GT(row.at("rays"), 500) << row; // of a thousand, at least half hit the box
+        EXPECT_GT(row.at("rays"), 500) << row; // at least half of a thousand rays hit the box
         EXPECT_GT(row.at("hitShare"), 0.0) << row;
         EXPECT_LE(row.at("hitShare"), 1.0) << row;
         EXPECT_GE(row.at("agreement"), 0.999) << row;

@@ -21,7 +21,7 @@ using test::runLavalight;
 using test::RunningProgram;
 using test::TemporaryFolder;
 
-constexpr size_t kRoomForAPng = 4096; // of 24 x 20 pixels, but not for their film
+constexpr size_t kRoomForAPng = 4096; // holds 24 x 20 pixels, but not their film
 
 class CheckpointFailure : public testing::Test {
   protected:

@@ -49,8 +49,8 @@ TEST_F(ExternalFiles, EveryCommandThatReadsScenesRefusesThemWithTheRemedyAndRead
         SCOPED_TRACE(command.front());
         const ProgramResult refused = run(command, false);
         EXPECT_EQ(refused.exitCode, 1);
-        EXPECT_NE(refused.err.find("buffer 0 \"../data.bin\": it lies outside the scene's folder, where "
-                                   "--allow-external would let it be read"),
+        EXPECT_NE(refused.err.find("buffer 0 \"../data.bin\": it lies outside the scene's folder; "
+                                   "--allow-external lets it be read"),
                   std::string::npos)
             << refused.err;
         const ProgramResult allowed = run(command, true);

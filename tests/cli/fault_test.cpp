@@ -84,13 +84,13 @@ TEST_P(VulkanFaults, EveryCallMayFail) {
 
 INSTANTIATE_TEST_SUITE_P(Thirds, VulkanFaults, testing::Range<size_t>(0, kFailures.size()));
 
-TEST_F(Fault, CallsForWavefrontKernelsMayFailToo) {
+TEST_F(Fault, CallsOfTheWavefrontMayFailToo) {
     const std::vector<std::string> calls =
-        callsOf({"--samples", "0:2", "--kernels", "wavefront", "-o", "b.exr"});
+        callsOf({"--samples", "0:2", "--schedule", "wavefront", "-o", "b.exr"});
     for (size_t i = 0; i < calls.size(); i += 17) {
         const int failure = kFailures[i % kFailures.size()];
         const VulkanFault fault(std::to_string(i + 1) + " " + std::to_string(failure));
-        expectMessageAndNothingElse(goOn({"--kernels", "wavefront"}), calls[i]);
+        expectMessageAndNothingElse(goOn({"--schedule", "wavefront"}), calls[i]);
     }
 }
 

@@ -62,7 +62,7 @@ TEST_F(Info, CountsWhatTheFileHolds) {
     EXPECT_EQ(info.at("emissiveTriangles"), 1);
     EXPECT_EQ(info.at("vertices"), 3);
     EXPECT_EQ(info.at("meshes"), 1);
-    EXPECT_EQ(info.at("cameras").size(), 1u); // the one that frames the scene
+    EXPECT_EQ(info.at("cameras").size(), 1u); // the camera that frames the scene
     EXPECT_EQ(info.at("bounds").at("lower"), json({0.0, 0.0, 0.0}));
     EXPECT_EQ(info.at("bounds").at("upper"), json({1.0, 1.0, 0.0}));
     EXPECT_GE(info.at("geometryBytes"), 3 * 12 + 12);

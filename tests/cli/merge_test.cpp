@@ -75,8 +75,8 @@ TEST_F(Merge, PartsHaveTheBitsOfOneRender) {
     EXPECT_NE(valueOf(readExr(at("bca.exr")).metadata, "bias-ledger").find("cut-paths"), std::string::npos);
 }
 
-TEST_F(Merge, OtherSamplersAndKernelsTheSame) {
-    const std::vector<std::string> other{"--sampler", "independent", "--kernels", "wavefront"};
+TEST_F(Merge, OtherSamplersAndSchedulesTheSame) {
+    const std::vector<std::string> other{"--sampler", "independent", "--schedule", "wavefront"};
     render("5:12", "whole.exr", other, "cornell-glass");
     render("5:6", "a.exr", other, "cornell-glass");
     render("6:12", "b.exr", other, "cornell-glass");
@@ -109,8 +109,8 @@ TEST_F(Merge, RefusesWhatIsNotOfOneImage) {
     expectUnmergeable("a.exr", "a.exr", "both hold the samples 0:2");
     render("2:4", "seed.exr", {"--seed", "1"});
     expectUnmergeable("a.exr", "seed.exr", "--seed (0 in a.exr, 1 in seed.exr)");
-    render("2:4", "kernels.exr", {"--kernels", "wavefront"});
-    expectUnmergeable("a.exr", "kernels.exr", "--kernels (fused in a.exr, wavefront in kernels.exr)");
+    render("2:4", "schedule.exr", {"--schedule", "wavefront"});
+    expectUnmergeable("a.exr", "schedule.exr", "--schedule (fused in a.exr, wavefront in schedule.exr)");
     render("2:4", "scene.exr", {}, "cornell-glass");
     expectUnmergeable("a.exr", "scene.exr", "scene (cornell-box in a.exr, cornell-glass in scene.exr)");
     render("2:4", "view.exr", {"--fov", "30"});

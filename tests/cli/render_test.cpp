@@ -171,11 +171,11 @@ TEST_F(Render, ReportIsJsonThatAgreesWithTheImage) {
         EXPECT_NEAR(report.at("meanRadiance").at(static_cast<size_t>(c)).get<double>(), mean[c], 1e-6);
 }
 
-TEST_F(Render, KernelsAreChosenByNameOrByTheKindOfDevice) {
-    const auto rendered = [&](const std::string& kernels) {
+TEST_F(Render, ScheduleIsChosenByNameOrByTheKindOfDevice) {
+    const auto rendered = [&](const std::string& schedule) {
         // Not whole workgroups, and paths too long for one dispatch of the fused kernel.
         expectSuccess(
-            {"-o", kernels + ".exr", "--report", "a.json", "--kernels", kernels, "--roulette", "off"},
+            {"-o", schedule + ".exr", "--report", "a.json", "--schedule", schedule, "--roulette", "off"},
             "17x11");
         return json::parse(readFile(folder_ / "a.json"));
     };
@@ -190,8 +190,8 @@ TEST_F(Render, KernelsAreChosenByNameOrByTheKindOfDevice) {
     expectEqualPixels(image("fused.exr"), image("wavefront.exr"));
     const json chosen = rendered("auto");
     const bool isCpu = chosen.at("device").at("type") == "CPU";
-    EXPECT_EQ(chosen.at("settings").at("kernels"), isCpu ? "fused" : "wavefront");
-    EXPECT_EQ(header("auto.exr").at("option:kernels"), isCpu ? "fused" : "wavefront");
+    EXPECT_EQ(chosen.at("settings").at("schedule"), isCpu ? "fused" : "wavefront");
+    EXPECT_EQ(header("auto.exr").at("option:schedule"), isCpu ? "fused" : "wavefront");
 }
 
 TEST_F(Render, WaveSizeBandsAndThreadsChangeNoBit) {

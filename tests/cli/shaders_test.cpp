@@ -32,10 +32,10 @@ class Shaders : public testing::Test {
             const ProgramResult made = run({"new-experiment", "mine", "lib/sampling/roulette.glsl"});
             ASSERT_EQ(made.exitCode, 0) << made.err;
         }
-        std::string text = readFile(folder_ / "mine/lib/roulette.glsl");
+        std::string text = readFile(folder_ / "mine/lib/sampling/roulette.glsl");
         const size_t at = text.find(from);
         ASSERT_NE(at, std::string::npos) << from;
-        std::ofstream(folder_ / "mine/lib/roulette.glsl") << text.replace(at, from.size(), to);
+        std::ofstream(folder_ / "mine/lib/sampling/roulette.glsl") << text.replace(at, from.size(), to);
     }
     [[nodiscard]] std::string header(const std::string& file, const std::string& key) const {
         const Metadata metadata = readExr(folder_ / file).metadata;
@@ -72,8 +72,8 @@ TEST_F(Shaders, AnExperimentExplainsItselfAndIsNotOverwritten) {
     EXPECT_NE(readFile(folder_ / "mine/README.md").find("--shaders mine"), std::string::npos);
     const ProgramResult again = run({"new-experiment", "mine", "lib/sampling/roulette.glsl"});
     EXPECT_EQ(again.exitCode, 1);
-    EXPECT_NE(again.err.find("mine/lib/roulette.glsl"), std::string::npos) << again.err;
-    EXPECT_NE(readFile(folder_ / "mine/lib/roulette.glsl").find("0.2"), std::string::npos);
+    EXPECT_NE(again.err.find("mine/lib/sampling/roulette.glsl"), std::string::npos) << again.err;
+    EXPECT_NE(readFile(folder_ / "mine/lib/sampling/roulette.glsl").find("0.2"), std::string::npos);
     EXPECT_EQ(run({"new-experiment", "mine", "lib/sampling/mis.glsl"}).exitCode, 0);
     const ProgramResult unknown = run({"new-experiment", "mine", "lib/roulete.glsl"});
     EXPECT_EQ(unknown.exitCode, 2);
@@ -84,7 +84,7 @@ TEST_F(Shaders, WhatDoesNotCompileIsNamedAndLeavesNoImage) {
     experiment(kCap, "kMaxSurvival = ;");
     const ProgramResult result = run(renderInto("mine.exr", kWithMine));
     EXPECT_EQ(result.exitCode, 1);
-    EXPECT_NE(result.err.find("mine/lib/roulette.glsl:6"), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find("mine/lib/sampling/roulette.glsl:6"), std::string::npos) << result.err;
     EXPECT_FALSE(std::filesystem::exists(folder_ / "mine.exr"));
     EXPECT_EQ(run(renderInto("mine.exr", {"--shaders", "nowhere"})).exitCode, 1);
     EXPECT_EQ(run(renderInto("mine.exr", {"--watch"})).exitCode, 2);
@@ -97,7 +97,7 @@ TEST_F(Shaders, EverySaveRendersAgainUnlessItIsBroken) {
     const std::vector<glm::vec3> before = pixels("mine.exr");
 
     experiment(kCap, "kMaxSurvival = ;");
-    ASSERT_TRUE(program.waitForText("mine/lib/roulette.glsl:6")) << program.interrupt().err;
+    ASSERT_TRUE(program.waitForText("mine/lib/sampling/roulette.glsl:6")) << program.interrupt().err;
     EXPECT_EQ(pixels("mine.exr"), before);
 
     experiment("kMaxSurvival = ;", "kMaxSurvival = 0.2");
@@ -116,16 +116,16 @@ TEST_F(Shaders, EverySaveRendersAgainUnlessItIsBroken) {
 
 TEST_F(Shaders, ASavedToneCurveMakesThePictureAnew) {
     ASSERT_EQ(run({"new-experiment", "mine", "lib/film/tone_map.glsl"}).exitCode, 0);
-    const std::string ours = readFile(folder_ / "mine/lib/tone_map.glsl");
+    const std::string ours = readFile(folder_ / "mine/lib/film/tone_map.glsl");
     const auto save = [&](const std::string& more) {
-        std::ofstream(folder_ / "mine/lib/tone_map.glsl") << ours + more;
+        std::ofstream(folder_ / "mine/lib/film/tone_map.glsl") << ours + more;
     };
     RunningProgram program(renderInto("mine.exr", {"--png", "mine.png", "--shaders", "mine", "--watch"}),
                            folder_.path());
     ASSERT_TRUE(program.waitForText("samples per pixel", 1)) << program.interrupt().err;
     const std::string before = readFile(folder_ / "mine.png");
     save("this is no shader\n");
-    ASSERT_TRUE(program.waitForText("mine/lib/tone_map.glsl:")) << program.interrupt().err;
+    ASSERT_TRUE(program.waitForText("mine/lib/film/tone_map.glsl:")) << program.interrupt().err;
     EXPECT_EQ(readFile(folder_ / "mine.png"), before);
     save("#define encodeSrgb(linear) (1.0 - encodeSrgb(linear))\n");
     ASSERT_TRUE(program.waitForText("samples per pixel", 2)) << program.interrupt().err;
@@ -143,7 +143,7 @@ TEST_F(Shaders, ARenderUnderWayIsEndedByOtherKernelsAlone) {
     std::ofstream(folder_ / "mine/notes.md") << "a note";
     ASSERT_TRUE(program.waitForText("no kernel has changed")) << program.interrupt().err;
     experiment(kCap, "kMaxSurvival = ;");
-    ASSERT_TRUE(program.waitForText("mine/lib/roulette.glsl:6")) << program.interrupt().err;
+    ASSERT_TRUE(program.waitForText("mine/lib/sampling/roulette.glsl:6")) << program.interrupt().err;
     EXPECT_FALSE(std::filesystem::exists(folder_ / "mine.exr")) << "the machine is too slow for this test";
     ASSERT_TRUE(program.waitForText("samples per pixel", 1)) << "the render did not go on";
     EXPECT_EQ(header("mine.exr", "option:shaders"), "");

@@ -23,7 +23,7 @@ using Random = std::minstd_rand;
 constexpr size_t kGlbHeader = 12;
 constexpr size_t kChunkHeader = 8;
 
-// Of a .gltf, which has no binary part, or of a .glb.
+// Parts of a .glb, or of a .gltf, which has no binary part.
 struct Parts {
     std::string json;
     std::optional<std::string> binary;

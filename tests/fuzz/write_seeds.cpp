@@ -54,7 +54,7 @@ void writeExrs(const fs::path& folder) {
     }
 }
 
-// Plain, with marks of the old runs, and with the new ones.
+// Writes rows that are plain, with marks of the old runs, and with the new ones.
 void writeHdrs(const fs::path& folder) {
     const std::string head = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\nEXPOSURE=2.0\n\n";
     const std::string plain("\x10\x20\x30\x80", 4);

@@ -22,7 +22,8 @@ namespace lavalight::test {
 namespace {
 
 constexpr size_t kStrata = 512; // as in the kernel
-// Of the integrals here, 512 x 512 points: the integrand jumps where directions are lost below the horizon.
+// Error of the integrals here, over 512 x 512 points: the integrand jumps where directions are lost below the
+// horizon.
 constexpr double kIntegralError = 2e-4;
 
 struct Question { // as in the kernel
@@ -93,7 +94,7 @@ TEST_F(AlbedoTableTest, TheTableIsNeverBelowTheLobeAndCloseToIt) {
         const glm::dvec4 integral(answers[i].rowMean);
         facets.add(table.x + table.y - integral.x - integral.y, asked[i]);
         grazing.add(table.y - integral.y, asked[i]);
-        if (asked[i].alpha >= 0.01f) // the least of sheen, which is divided by more than 1
+        if (asked[i].alpha >= 0.01f) // the least alpha of sheen, which is divided by more than 1
             sheen.add((table.z - integral.z) / std::max(1.0, integral.z), asked[i]);
     }
     std::cout << "facets " << facets.least << " to " << facets.most << ", grazing " << grazing.least << " to "

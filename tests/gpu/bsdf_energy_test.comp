@@ -6,7 +6,7 @@
 const uint kBatch = 1024u;
 
 layout(local_size_x = 64) in;
-layout(set = 0, binding = 21, std430) writeonly buffer Out { vec4 means[]; }; // of one batch each
+layout(set = 0, binding = 21, std430) writeonly buffer Out { vec4 means[]; }; // means of one batch each
 layout(push_constant) uniform Push {
     vec3 wo;
     uint material;

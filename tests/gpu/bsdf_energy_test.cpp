@@ -23,11 +23,11 @@ struct Push { // as in the kernel
     uint32_t material;
 };
 
-constexpr size_t kBatches = 128; // of 1024 samples each
+constexpr size_t kBatches = 128; // batches of 1024 samples
 // Standard errors. One in 31,000 means lies further above what it estimates by chance; here are some 3,000.
 constexpr double kSigmas = 4.0;
-// Of a batch's sum in single precision: 1024 roundings of up to half a unit in the last place of 1024, in the
-// mean of 1.
+// Error of a batch's sum in single precision: 1024 roundings of up to half a unit in the last place of 1024,
+// in the mean of 1.
 constexpr double kRounding = 3e-5;
 const std::vector<gpu::SpecialisationConstant> kMultipleScattering = {{CONSTANT_MULTIPLE_SCATTERING, 1}};
 const std::vector<float> kCosines = {1.0f, 0.9f, 0.7f, 0.5f, 0.3f, 0.2f, 0.1f, 0.05f, 0.02f, 0.005f, 0.002f};
@@ -38,7 +38,7 @@ std::vector<float> azimuthsOf(const MaterialRecord& record) {
 
 struct Albedo {
     glm::dvec3 mean{0.0};
-    double standardError = 0.0; // of the worst channel
+    double standardError = 0.0; // standard error of the worst channel
 };
 
 class BsdfEnergyTest : public DeviceTest {

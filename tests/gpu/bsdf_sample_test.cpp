@@ -50,7 +50,7 @@ struct Answer { // as in bsdf_test.comp
 constexpr size_t kSamples = 100000;
 constexpr size_t kRings = 32; // from the zenith to the nadir
 constexpr size_t kSectors = 32;
-constexpr size_t kPointsPerSide = 16; // of a bin, for its integral
+constexpr size_t kPointsPerSide = 16; // points of a bin for its integral, per side
 constexpr size_t kPoints = kPointsPerSide * kPointsPerSide;
 constexpr double kPi = std::numbers::pi;
 constexpr double kWoAzimuth = 1.0;
@@ -71,7 +71,7 @@ double azimuthAt(double sector) {
     return kMirrorAzimuth + kPi * s * s * s;
 }
 
-// d azimuth / d sector.
+// The derivative d azimuth / d sector.
 double azimuthStep(double sector) {
     const double s = 2.0 * sector / kSectors - 1.0;
     return 3.0 * kPi * s * s * 2.0 / kSectors;

@@ -7,7 +7,7 @@ struct Answer {
     float pdf; // as sampled
     vec3 radiance;
     float evaluatedPdf; // by what MIS asks
-    vec2 uv;            // of the question's direction
+    vec2 uv;            // point of the question's direction
     vec2 unused;
     vec3 again; // direction of that uv
     float unusedToo;

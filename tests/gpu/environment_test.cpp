@@ -52,8 +52,8 @@ class EnvironmentTest : public DeviceTest {
         gpu::ResourceTable resources;
         gpuScene.addTo(resources);
         RenderSettings settings;
-        settings.width = 1;
-        settings.environmentRotation = rotation;
+        settings.image.width = 1;
+        settings.lighting.rotation = rotation;
         FrameParameters frame = makeFrame(scene, Camera(), settings);
         setLights(frame, lights);
         gpu::Buffer uniforms(device(), "frame", sizeof frame, gpu::BufferUse::uniform);

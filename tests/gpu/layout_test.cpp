@@ -13,6 +13,7 @@
 #include "shared/scene.h"
 #include "shared/texture.h"
 #include "shared/trace.h"
+#include "shared/triangle.h"
 #include "shared/wavefront.h"
 #include "support/test_device.h"
 #include "test_kernels.h"
@@ -21,10 +22,10 @@ namespace lavalight::test {
 namespace {
 
 // One per struct: the members count upwards in the order of their declaration, as in the kernel.
-const Ray kRay{{1, 2, 3}, 4, {5, 6, 7}, 8, 9, {10, 11, 12}};
+const Ray kRay{{1, 2, 3}, {4}, {5, 6, 7}, 8, 9, {10, 11, 12}};
 const Hit kHit{1, 2, {3, 4}};
 const Path kPath{{1, 2, 3}, 4, {5, 6, 7}, 8};
-const ShadowRay kShadowRay{{1, 2, 3}, 4, {5, 6, 7}, 8, {9, 10, 11}, 12};
+const ShadowRay kShadowRay{{1, 2, 3}, {4}, {5, 6, 7}, {8}, {9, 10, 11}, 12};
 const BounceCounters kBounceCounters{1, 2};
 const DispatchSize kDispatchSize{1, 2, 3, 4};
 const WaveRange kWaveRange{1, 2, 3, 4, 5, 6, 7, 8, 9};
@@ -33,11 +34,11 @@ const FrameParameters kFrameParameters{{1, 2, 3},    4,  {5, 6, 7},    8,  {9, 1
                                        29,           30, 31,           32, 33,          34, 35,           36,
                                        37,           38, 39,           40};
 const TriangleNormals kTriangleNormals{1, 2, 3, 4};
-const TracedHit kTracedHit{1, 2};
+const TracedHit kTracedHit{1, {2}};
 // Loaded through texel buffers; what no kernel loads is 0.
 const BvhNode kBvhNode{
     {1, 2, 3}, 4, {5, 6, {7, 8}}, {{9, 10}, {11, 12}, {13, 14}}, {{15, 16}, {17, 18}, {19, 20}}};
-const LeafTriangle kLeafTriangle{{1, 2, 3}, 4, {5, 6, 7}, 8, {9, 10, 11}, 12};
+const TriangleRecord kTriangleRecord{{1, 2, 3}, {4}, {5, 6, 7}, 8, {9, 10, 11}, 12};
 const MaterialRecord kMaterialRecord{
     {1, 2, 3}, 4,  {5, 6, 7},    8,  {9, 10, 11}, 12,           13, 14, 15,           16, 17, 18,
     19,        20, {21, 22, 23}, 24, 25,          26,           27, 28, {29, 30, 31}, 32, 33, 34,
@@ -96,7 +97,7 @@ void expectSecond(const gpu::Buffer& buffer, const T& expected) {
 
 TEST_F(LayoutTest, GlslAndCppLayOutEverySharedStructAlike) {
     input("bvhNodes", kBvhNode);
-    input("leafTriangles", kLeafTriangle);
+    input("triangles", kTriangleRecord);
     input("materials", kMaterialRecord);
     input("lights", kLightRecord);
     input("punctuals", kPunctualRecord);
@@ -116,7 +117,7 @@ TEST_F(LayoutTest, GlslAndCppLayOutEverySharedStructAlike) {
     const gpu::Buffer& normals = output<TriangleNormals>("TriangleNormalsOut");
     const gpu::Buffer& tracedHit = output<TracedHit>("TracedHitOut");
     const gpu::Buffer& node = output<BvhNode>("BvhNodeOut");
-    const gpu::Buffer& triangle = output<LeafTriangle>("LeafTriangleOut");
+    const gpu::Buffer& triangle = output<TriangleRecord>("TriangleRecordOut");
     const gpu::Buffer& material = output<MaterialRecord>("MaterialRecordOut");
     const gpu::Buffer& light = output<LightRecord>("LightRecordOut");
     const gpu::Buffer& punctual = output<PunctualRecord>("PunctualRecordOut");
@@ -137,7 +138,7 @@ TEST_F(LayoutTest, GlslAndCppLayOutEverySharedStructAlike) {
     expectSecond(normals, kTriangleNormals);
     expectSecond(tracedHit, kTracedHit);
     expectSecond(node, kBvhNode);
-    expectSecond(triangle, kLeafTriangle);
+    expectSecond(triangle, kTriangleRecord);
     expectSecond(material, kMaterialRecord);
     expectSecond(light, kLightRecord);
     expectSecond(punctual, kPunctualRecord);

@@ -8,7 +8,7 @@ struct Answer {
     float pdf;
     vec3 radiance;
     uint light;
-    float pmf;          // of the pick
+    float pmf;          // pmf of the pick
     float evaluatedPmf; // by what MIS asks
     float place;
     float isDelta;

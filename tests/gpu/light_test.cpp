@@ -1,5 +1,5 @@
-// Emitters are picked with the probabilities that their pmf says, and sampled with the density that is
-// returned.
+// Emitters are picked with the probabilities that their pmf says, and sampled
+// with the density that is returned.
 #include <cmath>
 #include <numeric>
 #include <vector>
@@ -34,8 +34,8 @@ struct alignas(16) Answer { // as in the kernel
 
 constexpr size_t kSamples = 400000;
 
-// Triangles of one emissive material each, facing the origin from above, of areas and radiances over five
-// decades.
+// Triangles of one emissive material each, facing the origin from above, of
+// areas and radiances over five decades.
 Scene scatteredLights(size_t count) {
     Random random(1);
     Scene scene;
@@ -52,8 +52,8 @@ Scene scatteredLights(size_t count) {
     return scene;
 }
 
-// Signed solid angle of a triangle as seen from the origin. Van Oosterom, Strackee, "The Solid Angle of a
-// Plane Triangle", 1983, eq. 8.
+// Signed solid angle of a triangle as seen from the origin. Van Oosterom,
+// Strackee, "The Solid Angle of a Plane Triangle", 1983, eq. 8.
 double solidAngle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
     const double la = glm::length(a);
     const double lb = glm::length(b);
@@ -62,7 +62,7 @@ double solidAngle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c)
                             la * lb * lc + glm::dot(a, b) * lc + glm::dot(a, c) * lb + glm::dot(b, c) * la);
 }
 
-// Over kSamples samples.
+// Sums over kSamples samples.
 struct SampleSums {
     double sum = 0.0;
     double squares = 0.0;
@@ -95,8 +95,8 @@ class LightTest : public DeviceTest {
         gpu::Buffer uniforms(device(), "frame", sizeof frame, gpu::BufferUse::uniform);
         uniforms.upload(std::as_bytes(std::span(&frame, 1)));
         resources.set("Frame", uniforms);
-        const gpu::SpecialisationConstant features{CONSTANT_FEATURES, sceneFeatures(scene, lights)};
-        KernelRunner runner(device(), test_kernels::find("light_test"), resources, {&features, 1});
+        const auto features = featureConstants(sceneFeatures(scene, lights));
+        KernelRunner runner(device(), test_kernels::find("light_test"), resources, features);
         const uint32_t bothSides = 0;
         return runner.generate<Answer>(kSamples, bothSides);
     }
@@ -122,7 +122,8 @@ TEST_F(LightTest, LightsArePickedByTheirPmf) {
     EXPECT_GT(chiSquare(counts, byPower).pValue, kLeastPValue);
 }
 
-// Lamps of all kinds around the origin: two-sided panels, point lights, spots, a sun and a sky.
+// Lamps of all kinds around the origin: two-sided panels, point lights, spots,
+// a sun and a sky.
 Scene lampsOfAllKinds() {
     Scene scene = scatteredLights(60);
     Random random(7);
@@ -170,11 +171,13 @@ TEST_F(LightTest, TheTreePicksLightsByTheirPmfWhichMisEvaluatesToTheBit) {
     expected.push_back(kSamples - picked); // lights that were never picked have little
     EXPECT_GT(chiSquare(counts, expected).pValue, kLeastPValue);
     EXPECT_GT(chiSquare(places, std::vector<double>(64, (kSamples - nothing) / 64.0)).pValue, kLeastPValue);
-    EXPECT_NEAR(expected[90] / kSamples, 16.0 / 33.0, 1e-6); // the sun; the sky is the last
+    EXPECT_NEAR(expected[90] / kSamples, 16.0 / 33.0,
+                1e-6); // the sun; the sky is the last
     EXPECT_NEAR(expected[91] / kSamples, 1.0 / 33.0, 1e-6);
 }
 
-// The mean of emission / pdf is the integral of radiance over the directions of the light, in closed form.
+// The mean of emission / pdf is the integral of radiance over the directions of
+// the light, in closed form.
 TEST_F(LightTest, EmissionOverPdfIntegratesToRadianceTimesSolidAngle) {
     const glm::vec3 from(0.3f, -0.2f, 0.1f);
     const Scene scene = scatteredLights(8);
@@ -192,11 +195,12 @@ TEST_F(LightTest, EmissionOverPdfIntegratesToRadianceTimesSolidAngle) {
         }
         const double standardError = std::sqrt(sums.variance() / kSamples);
         EXPECT_NEAR(sums.mean(), expected, 4.0 * standardError);
-        EXPECT_LT(standardError, 0.005 * expected); // the comparison means something
+        EXPECT_LT(standardError,
+                  0.005 * expected); // the comparison means something
     }
 }
 
-// Of equal lamps strewn over a plane, those nearby bring nearly all.
+// The nearest of equal lamps strewn over a plane bring nearly all light.
 TEST_F(LightTest, UnderManyLampsTheTreeHasAFortiethOfTheVarianceOfPickingByPower) {
     Random random(5);
     Scene scene;
@@ -220,10 +224,10 @@ TEST_F(LightTest, UnderManyLampsTheTreeHasAFortiethOfTheVarianceOfPickingByPower
         << "by power: " << byPower.variance() << ", tree: " << byTree.variance();
 }
 
-// Irradiance at a hundredth of the light's width below its middle: by area, the few points right above carry
-// it all.
+// Irradiance at a hundredth of the light's width below its middle: by area, the
+// few points right above carry it all.
 TEST_F(LightTest, NearALargeQuadTheVarianceIsATenthOfThatOfAreaSampling) {
-    constexpr float kDistance = 0.01f; // of a square with sides of 1
+    constexpr float kDistance = 0.01f; // distance from a square with sides of 1
     Material material;
     material.emission = glm::vec3(1.0f);
     Scene scene;

@@ -28,7 +28,7 @@ struct Push { // as in the kernel
 constexpr size_t kSamples = 100000;
 constexpr size_t kRings = 20;
 constexpr size_t kSectors = 32;
-constexpr size_t kPointsPerSide = 12; // of a bin, for its integral
+constexpr size_t kPointsPerSide = 12; // points of a bin for its integral, per side
 constexpr double kPi = std::numbers::pi;
 
 // Normals are binned as stretched to a surface of alpha 1: m' = normalize(m.xy / alpha, m.z), where no lobe
@@ -39,7 +39,7 @@ glm::dvec3 stretched(const glm::vec3& m, const glm::dvec2& alpha) {
 
 struct Unstretched {
     glm::vec3 m;
-    double solidAngle; // of m per solid angle of m'
+    double solidAngle; // solid angle of m per solid angle of m'
 };
 
 Unstretched unstretched(double cosTheta, double phi, const glm::dvec2& alpha) {

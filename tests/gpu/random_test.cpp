@@ -26,7 +26,7 @@ struct Key { // as in the kernel
 using Words = std::array<uint32_t, 2>;
 
 constexpr uint32_t kImageWidth = 512;
-constexpr uint32_t kDimensions = 6; // of lib/sampling/sampler.glsl
+constexpr uint32_t kDimensions = 6; // the first dimensions of lib/sampling/sampler.glsl
 
 class RandomTest : public DeviceTest {
   protected:

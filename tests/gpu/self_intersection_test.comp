@@ -3,7 +3,7 @@
 #include "lib/math/onb.glsl"
 #include "lib/sampling/sampler.glsl"
 #include "scene/interaction.glsl"
-#include "scene/traverse.glsl"
+#include "scene/intersect.glsl"
 
 struct Answer {
     float t;          // of the first ray; infinite: it missed
@@ -25,7 +25,7 @@ float firstHit(Interaction surface, vec3 direction) {
     const vec3 origin = offsetOrigin(surface.p, surface.pError, surface.ng, direction);
     Hit hit;
     const bool found =
-        intersectClosest(origin, direction, kInfinity, RayFilter(false, surface.triangle, kNoTriangle, 0u), hit);
+        intersectClosest(origin, direction, kInfinity, RayFilter(false, surface.id, kNoSurface, 0u), hit);
     return found ? hit.t : kInfinity;
 }
 
@@ -35,7 +35,7 @@ void main() {
         return;
     const Ray ray = rays[i];
     Hit hit;
-    if (!intersectClosest(ray.origin, ray.direction, kInfinity, RayFilter(false, kNoTriangle, kNoTriangle, 0u), hit)) {
+    if (!intersectClosest(ray.origin, ray.direction, kInfinity, RayFilter(false, kNoSurface, kNoSurface, 0u), hit)) {
         answers[i] = Answer(kInfinity, kInfinity, kInfinity);
         return;
     }

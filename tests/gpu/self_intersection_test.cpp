@@ -28,7 +28,7 @@ enum class Side { outside, inside };
 
 constexpr size_t kRays = 40000;
 
-// Towards random points within the mesh, from far outside or from within.
+// Rays towards random points within the mesh, from far outside or from within.
 std::vector<Ray> raysFrom(Side side, const Placement& placement) {
     Random random(1);
     const auto within = [&](float radius) {
@@ -48,8 +48,8 @@ std::vector<Ray> raysFrom(Side side, const Placement& placement) {
 
 class SelfIntersectionTest : public DeviceTest {
   protected:
-    // Of rays from that side of a convex mesh: those that go on inside hit it, those that go on outside hit
-    // nothing.
+    // Expects of rays from that side of a convex mesh that they hit it where they go on inside, and nothing
+    // where they go on outside.
     void expectNoFalseHitNorLeak(Side side, const ClosedMesh& shape) {
         for (const Placement& placement : kPlacements) {
             SCOPED_TRACE(placement.name());

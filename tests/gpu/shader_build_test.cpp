@@ -8,6 +8,7 @@
 #include "gpu/shader_build.h"
 #include "gpu/spirv_passes.h"
 #include "gpu/texel_storage.h"
+#include "kernels/accelerator_name.h"
 #include "kernels/kernel_source.h"
 #include "support/temporary_folder.h"
 
@@ -89,7 +90,7 @@ TEST_F(ShaderBuildTest, InliningLeavesOneFunction) {
 // Functions that return early stay. The content is that of the compiled sources.
 TEST_F(ShaderBuildTest, EmbeddedKernelsAreInlinedAndKnownByTheirSources) {
     const std::filesystem::path shaders = std::filesystem::path(LAVALIGHT_SOURCE_DIR) / "shaders";
-    const gpu::KernelCode compiled = gpu::compileKernel(shaders / "kernels/path.comp", shaders);
+    const gpu::KernelCode compiled = gpu::compileKernel(shaders / "kernels/path.comp", shaders, includedFile);
     const gpu::KernelCode embedded = embeddedKernel("path");
     EXPECT_EQ(embedded.content, compiled.content);
     EXPECT_GT(functionsIn(compiled.spirv), 50u);

@@ -3,7 +3,7 @@
 #include "lib/bsdf/thin_film.glsl"
 
 struct Question {
-    vec3 f0; // of the base
+    vec3 f0; // F0 of the base
     float cosTheta;
     float ior;
     float thickness;

@@ -47,7 +47,7 @@ struct Interfaces {
     double top;
     double base;
     double path;  // difference of optical paths, nm
-    double shift; // of the phase
+    double shift; // shift of the phase
 };
 
 Interfaces interfacesOf(const Question& q, glm::length_t channel) {
@@ -60,7 +60,8 @@ Interfaces interfacesOf(const Question& q, glm::length_t channel) {
             2.0 * ior * q.thickness * cosInside, std::numbers::pi * (baseIor < ior ? 2.0 : 1.0)};
 }
 
-// All orders of reflections: Airy's formula, with the phase turned at both ends of the way within the film.
+// Reflectance with all orders of reflections: Airy's formula, with the phase turned at both ends of the way
+// within the film.
 double airy(const Interfaces& i, double wavelength) {
     const double r12 = std::sqrt(i.top);
     const double r23 = std::sqrt(i.base);
@@ -73,8 +74,8 @@ double lobe(double wavelength, double mean, double below, double above) {
     return std::exp(-0.5 * squared((wavelength - mean) * (wavelength < mean ? below : above)));
 }
 
-// CIE 1931; Wyman, Sloan, Shirley, "Simple Analytic Approximations to the CIE XYZ Color Matching Functions",
-// JCGT 2(2), 2013, multi-lobe fit.
+// The functions of CIE 1931, by the multi-lobe fit of Wyman, Sloan, Shirley, "Simple Analytic Approximations
+// to the CIE XYZ Color Matching Functions", JCGT 2(2), 2013.
 glm::dvec3 colorMatching(double w) {
     return {1.056 * lobe(w, 599.8, 0.0264, 0.0323) + 0.362 * lobe(w, 442.0, 0.0624, 0.0374) -
                 0.065 * lobe(w, 501.1, 0.0490, 0.0382),
@@ -88,7 +89,7 @@ glm::dvec3 toRec709(const glm::dvec3& xyz) {
            xyz;
 }
 
-// Channel by channel, a spectrum of all ones being 1.
+// A channel of the reflectance in linear RGB; a spectrum of all ones is 1 in each channel.
 double integratedOverWavelengths(const Question& q, glm::length_t channel) {
     const Interfaces interfaces = interfacesOf(q, channel);
     glm::dvec3 sum(0.0);

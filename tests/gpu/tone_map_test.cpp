@@ -30,7 +30,8 @@ struct Answer { // as in the kernel
     float unused1;
 };
 
-// Of display values and of signals: a fortieth of an 8-bit code. Drivers may err by some 1e-5 in a power.
+// Tolerance of display values and of signals: a fortieth of an 8-bit code. Drivers may err by some 1e-5 in a
+// power.
 constexpr double kTolerance = 1e-4;
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
@@ -45,7 +46,7 @@ class ToneMap : public DeviceTest {
     }
     glm::vec3 display(ToneCurve curve, const glm::vec3& color) { return map(curve, {color}).front().display; }
 
-    // For each curve, with its name on record.
+    // Calls check() for each curve, with its name on record.
     template <typename Check>
     void forEachCurve(const Check& check) {
         for (const SettingName<ToneCurve>& curve : settingNames<ToneCurve>()) {
@@ -62,7 +63,7 @@ std::string text(const glm::vec3& v) {
     return std::to_string(v.x) + " " + std::to_string(v.y) + " " + std::to_string(v.z);
 }
 
-// From 1e-6 to 1e6 in 3,001 steps of 0.9 %, after black.
+// Greys from 1e-6 to 1e6 in 3,001 steps of 0.9 %, after black.
 std::vector<glm::vec3> greyRamp() {
     std::vector<glm::vec3> colors{glm::vec3(0.0f)};
     for (int i = 0; i <= 3000; ++i)

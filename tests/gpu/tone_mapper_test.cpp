@@ -27,7 +27,7 @@ class ToneMapperTest : public DeviceTest {
     // Pixels by the thousand, in bands that do not divide them evenly.
     [[nodiscard]] std::unique_ptr<Renderer> render(uint32_t width, uint32_t height, uint32_t bandRows) {
         RenderSettings settings = imageSettings(width, height, 3); // counts that do not divide evenly either
-        settings.bandRows = bandRows;
+        settings.work.bandRows = bandRows;
         auto renderer = std::make_unique<Renderer>(device(), scene_, scene_.cameras.front(), settings);
         renderer->render([](double) { return true; });
         return renderer;

@@ -79,8 +79,8 @@ class TraverseTest : public DeviceTest {
             return std::isinf(ours.t) && std::isinf(theirs.t);
         const float difference = std::abs(ours.t - theirs.t);
         return difference <= kSameT * theirs.t ||
-               (ours.triangle == theirs.triangle &&
-                difference <= roundingOfT(ray, dense().triangles[ours.triangle]));
+               (ours.surface.primitive == theirs.triangle &&
+                difference <= roundingOfT(ray, dense().triangles[theirs.triangle]));
     }
     void expectSameHits(const std::vector<Ray>& rays, const std::vector<TracedHit>& ours) {
         const std::vector<OracleHit> theirs = dense().oracle.closest(toOracle(rays));
@@ -127,10 +127,10 @@ TEST_F(TraverseTest, ShadowRaysEndWhereTheirDirectionEnds) {
     for (size_t i = 0; i < dense().cameraRays.size(); ++i) {
         const Ray& ray = dense().cameraRays[i];
         const TracedHit& hit = dense().cameraHits[i];
-        if (hit.triangle == kNoTriangle)
+        if (!isSurface(hit.surface))
             continue;
         const auto reaching = [&](float share) {
-            return ShadowRay{ray.origin, kNoTriangle, share * hit.t * ray.direction, kNoTriangle, {}, 0.0f};
+            return ShadowRay{ray.origin, kNoSurface, share * hit.t * ray.direction, kNoSurface, {}, 0.0f};
         };
         before.push_back(reaching(0.999f));
         beyond.push_back(reaching(1.001f));
@@ -144,11 +144,11 @@ TEST_F(TraverseTest, ShadowRaysEndWhereTheirDirectionEnds) {
 TEST_F(TraverseTest, ATriangleIsSkippedByItsId) {
     std::vector<Ray> rays = dense().cameraRays;
     for (size_t i = 0; i < rays.size(); ++i)
-        rays[i].fromTriangle = dense().cameraHits[i].triangle;
+        rays[i].fromSurface = dense().cameraHits[i].surface;
     const std::vector<TracedHit> behind = dense().tracer.closest(rays);
     for (size_t i = 0; i < rays.size(); ++i) {
         const TracedHit& first = dense().cameraHits[i];
-        ASSERT_TRUE(first.triangle == kNoTriangle || behind[i].triangle != first.triangle);
+        ASSERT_TRUE(!isSurface(first.surface) || !isSameSurface(behind[i].surface, first.surface));
         ASSERT_GE(behind[i].t, first.t);
     }
 }

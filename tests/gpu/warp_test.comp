@@ -8,7 +8,7 @@ const uint kTriangle = 2u;
 const uint kLinear = 3u; // from questions[i].z to .w
 
 struct Answer {
-    vec3 point;          // of the warp at `u`
+    vec3 point;          // point of the warp at `u`
     float pdfOfQuestion; // the density at the point `u`, read as the warp's result
 };
 

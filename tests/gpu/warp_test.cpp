@@ -52,7 +52,7 @@ class WarpTest : public DeviceTest {
     }
 };
 
-// `x` in [0, 1] to one of `bins`.
+// The one of `bins` bins of [0, 1] that `x` is in.
 size_t binOf(double x, size_t bins) {
     return std::min(static_cast<size_t>(std::max(x, 0.0) * static_cast<double>(bins)), bins - 1);
 }
@@ -81,8 +81,8 @@ TEST_F(WarpTest, CosineHemisphereHasTheDensityThatItsPdfSays) {
         ASSERT_NEAR(glm::length(answer.point), 1.0f, 1e-6f);
         ++counts[binOf(answer.point.z, kRings) * kSectors + sectorOf(answer.point)];
     }
-    std::vector<glm::vec4>
-        middles; // of rings; the density is linear in the cosine, so the midpoint rule is exact
+    // The density is linear in the cosine, so the midpoint rule is exact.
+    std::vector<glm::vec4> middles;
     for (size_t ring = 0; ring < kRings; ++ring)
         middles.emplace_back(0.0f, 0.0f, (static_cast<float>(ring) + 0.5f) / kRings, 0.0f);
     const std::vector<double> pdf = pdfs(Warp::cosineHemisphere, middles);

@@ -72,7 +72,7 @@ TEST_F(WatertightTest, NoRayFromInsideEscapesThroughAnEdgeOrVertex) {
                 rays.push_back(rayTowards(origin, target));
         size_t leaks = 0;
         for (const TracedHit& hit : tracer.closest(rays))
-            leaks += hit.triangle == kNoTriangle ? 1 : 0;
+            leaks += isSurface(hit.surface) ? 0 : 1;
         EXPECT_EQ(leaks, 0u) << "of " << rays.size() << " rays";
     });
 }
@@ -107,7 +107,7 @@ TEST_F(WatertightTest, ShadowRaysFromInsideAreBlockedByEdgesAndVertices) {
             const glm::vec3 origin =
                 placement.centre() + 0.4f * placement.scale * random.unit() * random.direction();
             const glm::vec3 beyond(2.0 * (target - glm::dvec3(origin)));
-            rays.push_back({origin, kNoTriangle, beyond, kNoTriangle, glm::vec3(1.0f), 0.0f});
+            rays.push_back({origin, kNoSurface, beyond, kNoSurface, glm::vec3(1.0f), 0.0f});
         }
         size_t leaks = 0;
         for (const uint32_t occluded : tracer.occluded(rays))

@@ -45,9 +45,9 @@ TEST_F(Alpha, TenSheetsTransmitTheProductAndAreNoBounces) {
 
 TEST_F(Alpha, TheWavefrontHasTheBitsOfTheFusedKernel) {
     RenderSettings settings = imageSettings(16, 16, 16);
-    settings.kernels = Kernels::fused;
+    settings.work.schedule = Schedule::fused;
     const RenderResult fused = renderScene(device(), sheets(3, 0.5f), settings);
-    settings.kernels = Kernels::wavefront;
+    settings.work.schedule = Schedule::wavefront;
     EXPECT_EQ(renderScene(device(), sheets(3, 0.5f), settings).filmWords, fused.filmWords);
 }
 

@@ -20,10 +20,10 @@ class Continuation : public DeviceTest {
     // 40 x 36 pixels, 17 samples: neither waves, bands nor passes divide them evenly.
     [[nodiscard]] static RenderSettings baseSettings() {
         RenderSettings settings;
-        settings.width = 40;
-        settings.height = 36;
-        settings.samples = 17;
-        settings.waveSize = 4096;
+        settings.image.width = 40;
+        settings.image.height = 36;
+        settings.stop.samples = 17;
+        settings.work.waveSize = 4096;
         settings.estimator.maxBounces = 3; // so that paths are cut, and tallied
         return settings;
     }
@@ -77,20 +77,20 @@ void expectEqual(const RawFilm& a, const RawFilm& b) {
 
 TEST_F(Continuation, FilmsOfRangesAddUpToTheWhole) {
     for (const Sampler sampler : {Sampler::sobol, Sampler::independent})
-        for (const Kernels kernels : {Kernels::fused, Kernels::wavefront}) {
+        for (const Schedule schedule : {Schedule::fused, Schedule::wavefront}) {
             RenderSettings settings = baseSettings();
             settings.estimator.sampler = sampler;
-            settings.kernels = kernels;
+            settings.work.schedule = schedule;
             const RawFilm whole = filmOf(settings);
             EXPECT_GT(whole.tallies[kTallyCutPaths], 0u);
             for (const uint32_t split : {1u, 8u, 16u}) {
                 RenderSettings part = settings;
-                part.samples = split;
-                part.bandRows = 7;
+                part.stop.samples = split;
+                part.work.bandRows = 7;
                 RawFilm sum = filmOf(part);
-                part.firstSample = split;
-                part.samples = settings.samples - split;
-                part.waveSize = 1000;
+                part.image.firstSample = split;
+                part.stop.samples = settings.stop.samples - split;
+                part.work.waveSize = 1000;
                 add(sum, filmOf(part));
                 expectEqual(sum, whole);
             }
@@ -98,14 +98,15 @@ TEST_F(Continuation, FilmsOfRangesAddUpToTheWhole) {
 }
 
 TEST_F(Continuation, StartsAtAnyWaveOfAnyBand) {
-    for (const Kernels kernels : {Kernels::fused, Kernels::wavefront}) {
+    for (const Schedule schedule : {Schedule::fused, Schedule::wavefront}) {
         RenderSettings settings = baseSettings();
-        settings.kernels = kernels;
+        settings.work.schedule = schedule;
         const RawFilm whole = filmOf(settings);
-        settings.bandRows = 7; // six waves a pass of 16 samples, and then one of the last sample each band
+        settings.work.bandRows =
+            7; // six waves a pass of 16 samples, and then one of the last sample each band
         for (const int waves : {1, 2, 5, 6, 7, 11}) {
             const Cut cut = cutAfter(settings, waves);
-            EXPECT_LT(cut.progress.samples, settings.samples);
+            EXPECT_LT(cut.progress.samples, settings.stop.samples);
             expectEqual(continued(cut, settings), whole);
         }
     }
@@ -114,13 +115,13 @@ TEST_F(Continuation, StartsAtAnyWaveOfAnyBand) {
 TEST_F(Continuation, WavesAndBandsMayBeOtherOnesThanBefore) {
     RenderSettings settings = baseSettings();
     const RawFilm whole = filmOf(settings);
-    settings.bandRows = 7;
+    settings.work.bandRows = 7;
     const Cut cut = cutAfter(settings, 4);
     EXPECT_GT(cut.progress.passPixels, 0u);
     for (const uint32_t rows : {1u, 5u, 36u})
         for (const uint32_t waveSize : {1000u, 65536u}) {
-            settings.bandRows = rows;
-            settings.waveSize = waveSize;
+            settings.work.bandRows = rows;
+            settings.work.waveSize = waveSize;
             expectEqual(continued(cut, settings), whole);
         }
 }
@@ -128,18 +129,18 @@ TEST_F(Continuation, WavesAndBandsMayBeOtherOnesThanBefore) {
 TEST_F(Continuation, MayTakeMoreSamplesThanWereAskedForBefore) {
     RenderSettings settings = baseSettings();
     const RawFilm whole = filmOf(settings);
-    settings.samples = 5;
+    settings.stop.samples = 5;
     const Cut all = cutAfter(settings, 1000);
     EXPECT_EQ(all.progress, (FilmProgress{5, 0, 0}));
-    settings.samples = 17;
+    settings.stop.samples = 17;
     expectEqual(continued(all, settings), whole);
 }
 
 // The error is estimated at the ends of passes, the one where it is continued among them.
 TEST_F(Continuation, StopsAtTheSameEstimateOfTheError) {
     RenderSettings settings = baseSettings();
-    settings.samples = 1000;
-    settings.targetError = 0.05;
+    settings.stop.samples = 1000;
+    settings.stop.targetError = 0.05;
     int waves = 0;
     const RawFilm whole = with(settings, [&](Renderer& renderer) {
         EXPECT_EQ(renderer.render([&](double) { return ++waves > 0; }), StopReason::targetError);

@@ -81,7 +81,7 @@ TEST_F(ConvergenceTest, SobolBeatsIndependentOnTheCornellBox) {
 TEST_F(ConvergenceTest, SelectionByPowerHasAThirdOfTheVarianceOfUniformAmongManyLights) {
     RenderSettings settings = imageSettings(64, 64, 1);
     settings.estimator.maxBounces = 0;
-    settings.samples = 64;
+    settings.stop.samples = 64;
     const Image emission = render("many-lights", settings).radiance;
     settings = imageSettings(64, 64, 256);
     const double power = illuminationVariance(render("many-lights", settings), emission);
@@ -98,8 +98,8 @@ TEST_F(ConvergenceTest, ARenderStopsAtTheErrorItWasAskedFor) {
     for (const Sampler sampler : {Sampler::independent, Sampler::sobol}) {
         RenderSettings settings = imageSettings(kSide, kSide, 100000);
         settings.estimator.sampler = sampler;
-        settings.targetError = 0.004;
-        settings.waveSize = 16384;
+        settings.stop.targetError = 0.004;
+        settings.work.waveSize = 16384;
         const Scene scene = loadScene("cornell-box");
         Renderer renderer(device(), scene, scene.cameras.front(), settings);
         EXPECT_EQ(renderer.render([](double) { return true; }), StopReason::targetError);
@@ -108,8 +108,8 @@ TEST_F(ConvergenceTest, ARenderStopsAtTheErrorItWasAskedFor) {
         const double error = relMse(image.radiance, reference);
         std::cout << image.sampleCounts.front() << " samples: estimated " << estimate << ", true " << error
                   << "\n";
-        EXPECT_LE(estimate, settings.targetError);
-        EXPECT_GT(estimate, 0.5 * settings.targetError) << "stopped late";
+        EXPECT_LE(estimate, settings.stop.targetError);
+        EXPECT_GT(estimate, 0.5 * settings.stop.targetError) << "stopped late";
         EXPECT_LT(error, 1.15 * estimate);
         if (sampler == Sampler::independent) {
             EXPECT_GT(error, 0.85 * estimate);

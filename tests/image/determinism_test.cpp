@@ -1,4 +1,5 @@
-// The same scene, settings and seed give the same bits, however the work is cut up.
+// The same scene, settings and seed give the same bits, however the work is cut
+// up.
 #include <gtest/gtest.h>
 
 #include "render/setting_names.h"
@@ -36,30 +37,32 @@ TEST_F(Determinism, AnotherSeedIsAnotherImageOfTheSameMean) {
 }
 
 TEST_F(Determinism, WaveSizeChangesNoBit) {
-    // With many triangles, the fused kernel puts paths by after their first vertex.
+    // With many triangles, the fused kernel puts paths by after their first
+    // vertex.
     for (const Scene& scene : {scene_, loadScene("dense-12000")}) {
         const std::vector<uint32_t> expected = renderScene(device(), scene, baseSettings()).filmWords;
-        for (const Kernels kernels : {Kernels::fused, Kernels::wavefront})
+        for (const Schedule schedule : {Schedule::fused, Schedule::wavefront})
             for (const uint32_t waveSize : {1000u, 4096u, 10007u, 65536u}) {
                 RenderSettings settings = baseSettings();
-                settings.kernels = kernels;
-                settings.waveSize = waveSize;
+                settings.work.schedule = schedule;
+                settings.work.waveSize = waveSize;
                 EXPECT_EQ(renderScene(device(), scene, settings).filmWords, expected)
-                    << scene.source << ", " << nameOf(kernels) << ", " << waveSize;
+                    << scene.source << ", " << nameOf(schedule) << ", " << waveSize;
             }
     }
 }
 
-// Whole paths in one kernel, many dispatches for each of them where paths are long.
+// Whole paths in one kernel, many dispatches for each of them where paths are
+// long.
 TEST_F(Determinism, FusedKernelsAndTheWavefrontGiveTheSameBits) {
     for (const char* name : {"cornell-glass", "veach-mis", "many-lights"}) {
         const Scene scene = loadScene(name);
         RenderSettings settings =
             imageSettings(40, 36, 130); // lanes of several slots, the last ones not full
         settings.estimator.roulette = Roulette::off;
-        settings.kernels = Kernels::fused;
+        settings.work.schedule = Schedule::fused;
         const RenderResult fused = renderScene(device(), scene, settings);
-        settings.kernels = Kernels::wavefront;
+        settings.work.schedule = Schedule::wavefront;
         const RenderResult wavefront = renderScene(device(), scene, settings);
         EXPECT_EQ(fused.filmWords, wavefront.filmWords) << name;
         EXPECT_EQ(fused.tallies.cutPaths, wavefront.tallies.cutPaths) << name;
@@ -67,11 +70,13 @@ TEST_F(Determinism, FusedKernelsAndTheWavefrontGiveTheSameBits) {
     }
 }
 
-// What a scene has not is left out of its kernels: with everything left in, the bits are the same. Not with
-// the colours of vertices, for there are none to multiply, nor with thin films and brushed lobes, whose
-// arithmetic rounds otherwise where they have no effect (measured: 0.3 % and 0.1 % of the film's words), nor
-// with kinds of cameras, nor with lights, an environment among them, or a map where there is none, nor with
-// many triangles, which alone have memory for paths to wait in.
+// What a scene has not is left out of its kernels: with everything left in, the
+// bits are the same. Not with the colours of vertices, for there are none to
+// multiply, nor with thin films and brushed lobes, whose arithmetic rounds
+// otherwise where they have no effect (measured: 0.3 % and 0.1 % of the film's
+// words), nor with kinds of cameras, nor with lights, an environment among
+// them, or a map where there is none, nor with many triangles, which alone have
+// memory for paths to wait in.
 TEST_F(Determinism, KernelsSpecialisedToTheSceneGiveTheBitsOfGeneralOnes) {
     for (const char* name :
          {"cornell-box", "cornell-glass", "veach-mis", "glass-caustic", "furnace", "large-small-light"}) {
@@ -79,12 +84,13 @@ TEST_F(Determinism, KernelsSpecialisedToTheSceneGiveTheBitsOfGeneralOnes) {
         const RenderSettings settings = imageSettings(40, 36, 4);
         const RenderResult special = renderScene(device(), scene, settings);
         const RenderResult general = renderScene(device(), scene, settings, [](std::string_view kernel) {
-            return patchedKernel(kernel, {"lib/features.glsl", "(kFeatures & (feature)) != 0u",
-                                          "((kFeatures | ~(kFeatureVertexColors | kFeatureIridescence | "
-                                          "kFeatureAnisotropy | kFeatureLens | kFeaturePanorama | "
-                                          "kFeatureOrthographic | kFeatureLights | "
-                                          "kFeatureEnvironmentLight | kFeatureEnvironmentMap | "
-                                          "kFeatureManyTriangles)) & (feature)) != 0u"});
+            std::string isGeneral = "true";
+            for (const char* kept :
+                 {"VertexColors", "Iridescence", "Anisotropy", "Lens", "Panorama", "Orthographic", "Lights",
+                  "EnvironmentLight", "EnvironmentMap", "ManyTriangles"})
+                isGeneral += std::string(" && (feature) != kFeature") + kept;
+            return patchedKernel(kernel, {"lib/features.glsl", "#define sceneHas(feature) (",
+                                          "#define sceneHas(feature) (" + isGeneral + " || "});
         });
         EXPECT_EQ(special.filmWords, general.filmWords) << name;
     }
@@ -94,7 +100,7 @@ TEST_F(Determinism, BandHeightChangesNoBit) {
     const std::vector<uint32_t> expected = filmOf(baseSettings());
     for (const uint32_t rows : {1u, 7u, 36u, 50u}) {
         RenderSettings settings = baseSettings();
-        settings.bandRows = rows;
+        settings.work.bandRows = rows;
         EXPECT_EQ(filmOf(settings), expected) << rows;
     }
 }
@@ -102,15 +108,16 @@ TEST_F(Determinism, BandHeightChangesNoBit) {
 TEST_F(Determinism, RangesOfSamplesAddUpExactly) {
     RenderSettings settings = baseSettings();
     const std::vector<uint32_t> expected = filmOf(settings);
-    settings.samples = 8;
+    settings.stop.samples = 8;
     const std::vector<uint32_t> first = filmOf(settings);
-    settings.firstSample = 8;
+    settings.image.firstSample = 8;
     const std::vector<uint32_t> second = filmOf(settings);
     EXPECT_NE(first, second);
     EXPECT_EQ(sumOfFilms(first, second), expected);
 }
 
-// Many samples of few pixels in one wave: lavapipe cuts loops that are too long.
+// Many samples of few pixels in one wave: lavapipe cuts loops that are too
+// long.
 TEST_F(Determinism, ManySamplesOfOnePixelAllCount) {
     RenderSettings settings = imageSettings(1, 1, 40000);
     settings.estimator.maxBounces = 0;
@@ -123,7 +130,8 @@ TEST_F(Determinism, ManySamplesOfOnePixelAllCount) {
     expectEveryPixel(result, scene.environment);
 }
 
-// One band of such an image exceeds what lavapipe allows in a storage buffer (128 MiB).
+// One band of such an image exceeds what lavapipe allows in a storage buffer
+// (128 MiB).
 TEST_F(Determinism, ImageTooLargeForOneBufferIsWhole) {
     RenderSettings settings = imageSettings(100, 16384, 1);
     settings.estimator.maxBounces = 0;

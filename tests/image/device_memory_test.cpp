@@ -17,8 +17,8 @@ class DeviceMemory : public DeviceTest {
         for (const char* name : {"cornell-glass", "many-lights"}) {
             const Scene scene = loadScene(name);
             RenderSettings settings = imageSettings(24, 20, 4);
-            for (const Kernels kernels : {Kernels::fused, Kernels::wavefront}) {
-                settings.kernels = kernels;
+            for (const Schedule schedule : {Schedule::fused, Schedule::wavefront}) {
+                settings.work.schedule = schedule;
                 EXPECT_EQ(renderScene(other, scene, settings, embeddedKernel).filmWords,
                           renderScene(device(), scene, settings).filmWords)
                     << name;
@@ -47,8 +47,8 @@ TEST_F(DeviceMemory, WorkThatIsSubmittedAheadCountsTheSame) {
     gpu::Device other(config);
     const Scene scene = loadScene("cornell-glass");
     RenderSettings settings = imageSettings(24, 20, 8);
-    settings.kernels = Kernels::wavefront;
-    settings.waveSize = 1000;
+    settings.work.schedule = Schedule::wavefront;
+    settings.work.waveSize = 1000;
     for (const uint32_t bounces : {5u, 64u}) {
         settings.estimator.maxBounces = bounces;
         settings.estimator.roulette = Roulette::off;

@@ -25,16 +25,17 @@ struct Panel {
 constexpr Panel kPanel{{0.25, -0.3}, {0.6, 0.4}, 1.5};  // hangs askew over the origin
 constexpr Panel kFarPanel{{2.0, 3.0}, {1.0, 1.5}, 3.0}; // hides nothing of the other, nor the other way round
 
-// Differential element to a parallel rectangle that has a corner above it: the rectangle reaches x and y
-// away, in units of its height. Howell, "A Catalog of Radiation Heat Transfer Configuration Factors", B-3.
+// Form factor from a differential element to a parallel rectangle that has a corner above it and reaches x
+// and y away, in units of its height. Howell, "A Catalog of Radiation Heat Transfer Configuration Factors",
+// B-3.
 double cornerFactor(double x, double y) {
     const double rx = std::sqrt(1.0 + x * x);
     const double ry = std::sqrt(1.0 + y * y);
     return (x / rx * std::atan(y / rx) + y / ry * std::atan(x / ry)) / (2.0 * std::numbers::pi);
 }
 
-// From the origin, facing up, to the panel: four rectangles with a corner above the origin, odd in both
-// extents.
+// Form factor from the origin, facing up, to the panel: four rectangles with a corner above the origin, odd
+// in both extents.
 double formFactor(const Panel& panel) {
     const glm::dvec2 lower = (panel.center - panel.halfSize) / panel.height;
     const glm::dvec2 upper = (panel.center + panel.halfSize) / panel.height;
@@ -42,7 +43,7 @@ double formFactor(const Panel& panel) {
            cornerFactor(lower.x, lower.y);
 }
 
-// Faces down.
+// The panel as a mesh that faces down.
 Shape shapeOf(const Panel& panel) {
     return rectangle({panel.center.x, panel.height, panel.center.y}, {panel.halfSize.x, 0, 0},
                      {0, 0, panel.halfSize.y});

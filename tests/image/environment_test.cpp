@@ -49,8 +49,8 @@ TEST_F(EnvironmentImage, CameraSeesTheMapTurnedAndScaled) {
     EXPECT_NEAR(ahead.mean.g, 0.5, 0.02);
     EXPECT_NEAR(ahead.mean.b, 0.5, 0.02);
     // Turned by an eighth counter-clockwise, +X shows what was towards +Z: the third texel.
-    settings.environmentRotation = 45.0f;
-    settings.environmentIntensity = 3.0f;
+    settings.lighting.rotation = 45.0f;
+    settings.lighting.intensity = 3.0f;
     const ImageMean turned = meanOf(renderScene(device(), scene, settings).rendering);
     EXPECT_NEAR(turned.mean.b, 3.0, 0.3);
     EXPECT_LT(turned.mean.r, 0.1);

@@ -123,7 +123,7 @@ class MaterialsTest : public EstimatorTest {
     }
 };
 
-// Under a lamp without size, too, which nothing but next-event estimation finds.
+// Each scene gets a lamp without size too, which nothing but next-event estimation finds.
 TEST_P(MaterialsTest, EverySettingHasTheMeanOfTheDefault) {
     Scene scene = sceneOf(GetParam().name);
     PunctualLight lamp;

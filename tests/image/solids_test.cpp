@@ -48,7 +48,7 @@ class Solids : public DeviceTest {
     // What paths say of the solids, 32 x 32 x 16 paths. The solids stand on a white floor under a white sky,
     // so that paths come from everywhere.
     FilmTallies talliesOf(const std::vector<Shape>& shapes, const Material& material = glassOf(1.5f),
-                          const glm::vec3& eye = {3.0f, 2.5f, 5.0f}, Kernels kernels = Kernels::fused) {
+                          const glm::vec3& eye = {3.0f, 2.5f, 5.0f}, Schedule schedule = Schedule::fused) {
         SceneBuilder builder;
         builder.add(rectangle({0, -1.5f, 0}, {0, 0, 6}, {6, 0, 0}), lambert(glm::vec3(0.8f)));
         for (const Shape& shape : shapes)
@@ -56,7 +56,7 @@ class Solids : public DeviceTest {
         const Scene scene = builder.environment(glm::vec3(1.0f)).camera(lookAt(eye, {0, 0, 0}, 0.7f)).build();
         RenderSettings settings = imageSettings(32, 32, 16);
         settings.estimator.maxBounces = 16;
-        settings.kernels = kernels;
+        settings.work.schedule = schedule;
         return renderScene(device(), scene, settings).tallies;
     }
 
@@ -85,7 +85,7 @@ TEST_F(Solids, ThatOverlapAreNoticed) {
 TEST_F(Solids, BothWaysToRenderCountAlike) {
     const FilmTallies fused = talliesOf({kLeft, kRight});
     const FilmTallies wavefront =
-        talliesOf({kLeft, kRight}, glassOf(1.5f), {3.0f, 2.5f, 5.0f}, Kernels::wavefront);
+        talliesOf({kLeft, kRight}, glassOf(1.5f), {3.0f, 2.5f, 5.0f}, Schedule::wavefront);
     EXPECT_EQ(wavefront.overlaps, fused.overlaps);
     EXPECT_EQ(wavefront.overlapping, fused.overlapping);
 }

@@ -19,7 +19,7 @@ struct ClosedMesh {
 
 // The cube [-1, 1]^3, two triangles a face.
 [[nodiscard]] ClosedMesh makeCube();
-// The same cube with `cells` x `cells` squares a face: edges lie in the planes between the boxes of a BVH.
+// The cube with `cells` x `cells` squares a face: edges lie in the planes between the boxes of a BVH.
 [[nodiscard]] ClosedMesh makeGriddedCube(uint32_t cells);
 // An icosahedron in the unit sphere, each triangle split in four `subdivisions` times: convex.
 [[nodiscard]] ClosedMesh makeIcosphere(uint32_t subdivisions);
@@ -30,16 +30,16 @@ struct ClosedMesh {
 // Where and how large a test sets its mesh.
 struct Placement {
     float scale;
-    float distance; // of the mesh's origin from that of the world, in units of the scale
+    float distance; // distance between the mesh's origin and the world's, in units of the scale
     [[nodiscard]] glm::vec3 centre() const;
     [[nodiscard]] std::string name() const;
 };
 
-// Millimetres to kilometres, at the origin and ten thousand sizes from it.
+// Placements from millimetres to kilometres, at the origin and ten thousand sizes from it.
 constexpr Placement kPlacements[] = {{1.0f, 0.0f}, {0.001f, 0.0f}, {1000.0f, 0.0f},
                                      {1.0f, 1e4f}, {0.001f, 1e4f}, {1000.0f, 1e4f}};
 
-// Every position p becomes scale * p + centre, rounded: still closed.
+// The mesh with every position p moved to scale * p + centre, rounded: still closed.
 [[nodiscard]] ClosedMesh placed(ClosedMesh mesh, const Placement& placement);
 
 // A scene of this one mesh, flat shaded, of the default material.

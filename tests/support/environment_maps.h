@@ -11,17 +11,17 @@ namespace lavalight::test {
 
 [[nodiscard]] Image constantMap(uint32_t width, uint32_t height, const glm::vec3& radiance);
 
-// Texels of values from 0 to 1, a third of them black.
+// A map with values from 0 to 1, a third of its texels black.
 [[nodiscard]] Image randomMap(uint32_t width, uint32_t height, uint32_t seed);
 
-// One bright texel on a faint sky.
+// A map with one bright texel on a faint sky.
 [[nodiscard]] Image sunMap(uint32_t width, uint32_t height, const glm::uvec2& sun, float radiance, float sky);
 
 // The direction of a point (u, v) of a map: u = 0.5 is +X and grows towards +Z, v = 0 is +Y.
 [[nodiscard]] glm::dvec3 mapDirection(const glm::dvec2& uv);
 [[nodiscard]] glm::dvec2 mapPoint(const glm::dvec3& direction);
 
-// Bilinear between texel centres, wrapped around in u and clamped in v.
+// A lookup, bilinear between texel centres, wrapped around in u and clamped in v.
 [[nodiscard]] glm::dvec3 mapLookup(const Image& map, const glm::dvec2& uv);
 
 } // namespace lavalight::test

@@ -7,7 +7,8 @@
 
 namespace lavalight::test {
 
-// Set while one lives, then as before. Tests of one process run one after the other, so nobody else looks.
+// A variable that is set while this lives, then as before. Tests of one process run one after the other, so
+// nobody else looks.
 class EnvironmentVariable {
   public:
     EnvironmentVariable(const std::string& name, const std::string& value) : name_(name) {

@@ -63,7 +63,7 @@ Variant withOtherSeed() {
 bool isPermitted(const Variant& variant) {
     RenderSettings settings;
     settings.estimator = variant.settings;
-    settings.width = 1;
+    settings.image.width = 1;
     try {
         checkSettings(settings);
         return true;

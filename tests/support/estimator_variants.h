@@ -15,10 +15,10 @@ namespace lavalight::test {
 struct Variant {
     std::string name;
     EstimatorSettings settings;
-    uint32_t effort = 1; // samples, beside those of other variants
+    uint32_t effort = 1; // multiple of the samples that other variants take
 };
 
-// All have the sampler `independent`, as Z-tests suppose.
+// All variants have the sampler `independent`, as Z-tests suppose.
 [[nodiscard]] Variant defaultVariant();
 
 // Each setting of the estimator at each value that must not change the mean, one at a time; seed 1, so that
@@ -29,9 +29,8 @@ struct Variant {
 // permits; seed 1.
 [[nodiscard]] std::vector<Variant> allVariants();
 
-// Those of the variants whose error thousands of samples can judge on a built-in scene: not light samples
-// alone on Veach's plates, whose mirror-like highlights they find so seldom that neither mean nor variance
-// shows it.
+// The variants whose error thousands of samples can judge on a built-in scene: not light samples alone on
+// Veach's plates, whose mirror-like highlights they find so seldom that neither mean nor variance shows it.
 [[nodiscard]] std::vector<Variant> answerable(const std::string& scene, std::vector<Variant> variants);
 
 // Renders each variant with so many samples times its effort, 32 x 32 pixels, and the default with twice as

@@ -8,7 +8,7 @@
 
 namespace lavalight::test {
 
-// While one lives, this process and those that it starts fail to make files longer than that, as on a full
+// While this lives, its process and those that it starts fail to make files longer than that, as on a full
 // disk.
 class FullDisk {
   public:

@@ -9,12 +9,12 @@
 
 namespace lavalight::test {
 
-// Of two images of independent samples, channel by channel: tile by tile, tiles of kTileSides pixels, and all
-// tiles of a size together, which is to say the mean of their relative differences.
+// A comparison of two images of independent samples, channel by channel: tile by tile, tiles of kTileSides
+// pixels, and all tiles of a size together, which is to say the mean of their relative differences.
 struct MeanComparison {
-    uint32_t tests = 0;         // that are precise enough to count
-    double share = 0.0;         // of the tiles of one size, those that count; the best size
-    double limit = 0.0;         // of |z|: what kFalseAlarm leaves to each test, after Bonferroni
+    uint32_t tests = 0;         // tests that are precise enough to count
+    double share = 0.0;         // share of tiles that count, of the size where it is largest
+    double limit = 0.0;         // limit of |z|: what kFalseAlarm leaves to each test, after Bonferroni
     double worstZ = 0.0;        // largest |z|
     std::string worst;          // where that is
     double visibleBias = 0.0;   // smallest relative bias that would have shown if all tiles had it

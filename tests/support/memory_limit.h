@@ -1,4 +1,4 @@
-// Less memory than the machine has, for what must be refused without it.
+// A limit on memory, for tests of what must be refused without enough of it.
 #pragma once
 
 #include <cstdint>

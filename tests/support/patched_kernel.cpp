@@ -5,6 +5,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "kernels/accelerator_name.h"
 #include "support/temporary_folder.h"
 
 namespace lavalight::test {
@@ -23,7 +24,8 @@ gpu::KernelCode patchedKernel(std::string_view kernel, const Patch& patch) {
         throw std::runtime_error(patch.file + " does not hold exactly one \"" + patch.from + "\"");
     source.replace(at, patch.from.size(), patch.to);
     std::ofstream(folder.path() / patch.file) << source;
-    return gpu::compileKernel(folder.path() / "kernels" / (std::string(kernel) + ".comp"), folder.path());
+    return gpu::compileKernel(folder.path() / "kernels" / (std::string(kernel) + ".comp"), folder.path(),
+                              includedFile);
 }
 
 } // namespace lavalight::test

@@ -15,10 +15,10 @@ class Random {
     explicit Random(uint32_t seed) : engine_(seed) {}
 
     [[nodiscard]] uint32_t bits() { return engine_(); }
-    // In [0, 1), a multiple of 2^-24.
+    // A number in [0, 1), a multiple of 2^-24.
     [[nodiscard]] float unit() { return static_cast<float>(engine_() >> 8) * 0x1p-24f; }
     [[nodiscard]] float between(float low, float high) { return low + (high - low) * unit(); }
-    // Uniform on the unit sphere.
+    // A direction, uniform on the unit sphere.
     [[nodiscard]] glm::vec3 direction() {
         const float z = between(-1.0f, 1.0f);
         const float phi = 2.0f * std::numbers::pi_v<float> * unit();

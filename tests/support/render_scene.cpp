@@ -44,9 +44,9 @@ RenderResult resultOf(Renderer& renderer) {
 
 RenderSettings imageSettings(uint32_t width, uint32_t height, uint32_t samples) {
     RenderSettings settings;
-    settings.width = width;
-    settings.height = height;
-    settings.samples = samples;
+    settings.image.width = width;
+    settings.image.height = height;
+    settings.stop.samples = samples;
     settings.estimator.sampler = Sampler::independent; // the film's variance is that of independent samples
     return settings;
 }

@@ -21,7 +21,7 @@ class KernelRunner {
     KernelRunner(gpu::Device& device, gpu::KernelCode code, gpu::ResourceTable others = {},
                  std::span<const gpu::SpecialisationConstant> constants = {});
 
-    // `count` outputs. `push` must be as long as the kernel's push constants.
+    // Returns `count` outputs. `push` must be as long as the kernel's push constants.
     template <typename Out, typename In>
     [[nodiscard]] std::vector<Out> run(std::span<const In> in, size_t count,
                                        std::span<const std::byte> push = {}) {
@@ -30,12 +30,12 @@ class KernelRunner {
         runBytes(std::as_bytes(in), std::as_writable_bytes(std::span(out)), count, push);
         return out;
     }
-    // One output per input.
+    // Returns one output per input.
     template <typename Out, typename In>
     [[nodiscard]] std::vector<Out> map(const std::vector<In>& in) {
         return run<Out>(std::span<const In>(in), in.size());
     }
-    // Outputs from push constants alone.
+    // Returns outputs from push constants alone.
     template <typename Out, typename Push>
     [[nodiscard]] std::vector<Out> generate(size_t count, const Push& push) {
         return run<Out>(std::span<const std::byte>(), count, std::as_bytes(std::span(&push, 1)));

@@ -22,7 +22,7 @@ struct CloseFile {
 };
 using File = std::unique_ptr<std::FILE, CloseFile>;
 
-// Unnamed: what the program prints must not show up in the folder that a test looks at.
+// An unnamed file: what the program prints must not show up in the folder that a test looks at.
 File unnamedFile() {
     File file(std::tmpfile());
     if (!file)
@@ -39,7 +39,7 @@ std::string contents(std::FILE* file) {
     return text;
 }
 
-// Only calls that are safe between fork and exec.
+// Becomes the program, by nothing but calls that are safe between fork and exec.
 [[noreturn]] void becomeProgram(char* const* argv, const char* folder, int out, int err) {
     const int nothing = ::open("/dev/null", O_RDONLY);
     if (::dup2(nothing, STDIN_FILENO) >= 0 && ::dup2(out, STDOUT_FILENO) >= 0 &&

@@ -80,7 +80,7 @@ ProgramResult RunningProgram::result() const {
 
 bool RunningProgram::waitForText(const std::string& text, int times) {
     for (;;) {
-        const bool isLast = hasEnded(); // asked first: what it wrote at its end counts
+        const bool isLast = hasEnded(); // asked before reading: what the program wrote at its end counts
         const ProgramResult now = result();
         if (timesIn(now.out, text) + timesIn(now.err, text) >= times)
             return true;

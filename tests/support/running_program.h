@@ -13,7 +13,7 @@
 
 namespace lavalight::test {
 
-// Killed after two minutes, or when destroyed.
+// A program that is killed after two minutes, or when this is destroyed.
 class RunningProgram {
   public:
     // Throws std::runtime_error if it cannot be started.
@@ -22,18 +22,18 @@ class RunningProgram {
     RunningProgram(const RunningProgram&) = delete;
     RunningProgram& operator=(const RunningProgram&) = delete;
 
-    // Waits until it has written that text to stdout or stderr, `times` times in all; false if it ends
-    // before.
+    // Waits until the program has written that text to stdout or stderr, `times` times in all; false if it
+    // ends before.
     [[nodiscard]] bool waitForText(const std::string& text, int times = 1);
-    // Which it does while it renders.
+    // Waits until the program catches SIGINT, which it does while it renders.
     void waitUntilItCatchesInterrupts();
     [[nodiscard]] bool isRunning() { return !hasEnded(); }
-    // Waits for it to end by itself.
+    // Waits for the program to end by itself.
     [[nodiscard]] ProgramResult wait();
     // Sends SIGINT as soon as the program catches it, and waits for the end.
     [[nodiscard]] ProgramResult interrupt();
     void send(int signal);
-    // Ends it at once, unless it has ended: SIGKILL.
+    // Ends the program at once by SIGKILL, unless it has ended.
     [[nodiscard]] ProgramResult kill();
 
     [[nodiscard]] bool hasEnded();

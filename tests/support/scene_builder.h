@@ -11,7 +11,7 @@
 
 namespace lavalight::test {
 
-// Flat-shaded triangles; fronts are where the vertices turn counter-clockwise.
+// A shape of flat-shaded triangles; fronts are where the vertices turn counter-clockwise.
 struct Shape {
     std::vector<glm::vec3> positions;
     std::vector<glm::uvec3> triangles;
@@ -20,14 +20,14 @@ struct Shape {
 // The parallelogram center +- halfU +- halfV; its front faces cross(halfU, halfV).
 [[nodiscard]] Shape rectangle(const glm::vec3& center, const glm::vec3& halfU, const glm::vec3& halfV);
 
-// Fronts face outwards.
+// A box whose fronts face outwards.
 [[nodiscard]] Shape cube(const glm::vec3& center, float halfSide);
 
 // A convex body of 32 faces with its vertices on a sphere (an octahedron subdivided once); fronts face
 // outwards.
 [[nodiscard]] Shape ball(const glm::vec3& center, float radius);
 
-// The same triangles with their fronts on the other side.
+// The shape with its triangles' fronts on the other side.
 [[nodiscard]] Shape insideOut(Shape shape);
 
 // A surface without specular reflection.
@@ -36,10 +36,10 @@ struct Shape {
 // A surface that reflects nothing and emits `radiance` to its front.
 [[nodiscard]] Material light(const glm::vec3& radiance);
 
-// Perspective, square, looking from `position` to `target`; the directions must not be parallel to y.
+// A square perspective camera that looks from `position` to `target`; the view must not be parallel to y.
 [[nodiscard]] Camera lookAt(const glm::vec3& position, const glm::vec3& target, float verticalFov);
 
-// The same without perspective, `halfHeight` metres from the middle to the upper border.
+// A camera that looks so without perspective, `halfHeight` metres from the middle to the upper border.
 [[nodiscard]] Camera lookAtOrthographic(const glm::vec3& position, const glm::vec3& target, float halfHeight);
 
 class SceneBuilder {

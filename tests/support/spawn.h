@@ -9,7 +9,7 @@
 
 namespace lavalight::test {
 
-// What a program gets that is not its parent's.
+// A program to be started, and what it gets that is not its parent's.
 class Spawn {
   public:
     Spawn() { ::posix_spawn_file_actions_init(&actions_); }
@@ -17,13 +17,14 @@ class Spawn {
     Spawn(const Spawn&) = delete;
     Spawn& operator=(const Spawn&) = delete;
 
-    // The stream is this file, opened with these flags.
+    // Makes the stream this file, opened with these flags.
     void open(int stream, const std::string& file, int flags);
-    // The stream is this descriptor of the parent's.
+    // Makes the stream this descriptor of the parent's.
     void pass(int stream, int descriptor);
     void workIn(const std::string& folder);
 
-    // The first word is a path, or found in PATH. Throws std::runtime_error where it cannot be run.
+    // Starts the program. The first word is a path, or found in PATH. Throws std::runtime_error where it
+    // cannot be run.
     [[nodiscard]] pid_t start(std::vector<std::string> words) const;
 
   private:

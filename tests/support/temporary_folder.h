@@ -10,7 +10,7 @@
 
 namespace lavalight::test {
 
-// Made empty when constructed, removed with all it holds when destroyed.
+// A folder that is made empty when this is constructed, and removed with all it holds when it is destroyed.
 class TemporaryFolder {
   public:
     TemporaryFolder() {

@@ -17,7 +17,7 @@ struct TestMaterial {
     MaterialRecord record;
 };
 
-// `alpha` = roughness^2 >= 0.04, so that lobes are wide enough for bins.
+// Rough materials: `alpha` = roughness^2 >= 0.04, so that lobes are wide enough for bins.
 [[nodiscard]] std::vector<TestMaterial> roughMaterials();
 // Mirrors alone and over a diffuse base (metals first), and a surface too smooth for bins.
 [[nodiscard]] std::vector<TestMaterial> smoothMaterials();
@@ -26,7 +26,7 @@ struct TestMaterial {
 [[nodiscard]] std::vector<TestMaterial> layeredMaterials();
 // Clearcoats whose normal leans to x by the slope clearcoatNormalScale, as the test kernels take it.
 [[nodiscard]] std::vector<TestMaterial> tiltedCoats();
-// Rough, without an inside: alike from both sides.
+// Rough transmissive materials without an inside: alike from both sides.
 [[nodiscard]] std::vector<TestMaterial> transmissiveMaterials();
 // Rough boundaries of glass bodies.
 [[nodiscard]] std::vector<TestMaterial> solidMaterials();
@@ -34,7 +34,7 @@ struct TestMaterial {
 [[nodiscard]] std::vector<TestMaterial> smoothLayers();
 // Nothing but smooth lobes.
 [[nodiscard]] std::vector<TestMaterial> smoothFilms();
-// White, at roughnesses between the rows of the albedo table, from a mirror on.
+// White materials at roughnesses between the rows of the albedo table, from a mirror on.
 [[nodiscard]] std::vector<TestMaterial> whitesOfAllRoughnesses();
 
 // Materials and the albedo table on the device, under the names of scene/material.glsl.

@@ -54,7 +54,7 @@ class Watcher {
     int y_ = 0;
 };
 
-// Until the picture is another; the patience where it never is.
+// Time until the picture is another one; the patience where it never is.
 double milliseconds(const Watcher& watcher, int right) {
     const std::string before = watcher.look();
     const auto start = std::chrono::steady_clock::now();

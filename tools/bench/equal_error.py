@@ -238,7 +238,7 @@ def parse_options():
     parser.add_argument("--scenes", nargs="*", default=SCENES, choices=SCENES, help="for time to equal error")
     parser.add_argument("--ray-scenes", nargs="*", default=RAY_SCENES, help="for rays per second")
     parser.add_argument("--variants", nargs="*", default=["llvm_ad_rgb", "scalar_rgb"], help="of Mitsuba")
-    parser.add_argument("--wavefront", action="store_true", help="also --kernels wavefront")
+    parser.add_argument("--wavefront", action="store_true", help="also --schedule wavefront")
     parser.add_argument("--repeats", type=int, default=5)
     parser.add_argument("--target", type=float, default=0.003, help="relMSE")
     parser.add_argument("--threads", type=int, default=os.cpu_count(), help="of every renderer")
@@ -258,7 +258,7 @@ def main():
     os.environ["LP_NUM_THREADS"] = str(options.threads)
     renderers = [Lavalight(options.lavalight, "Lavalight")]
     if options.wavefront:
-        renderers.append(Lavalight(options.lavalight, "Lavalight, wavefront", ["--kernels", "wavefront"]))
+        renderers.append(Lavalight(options.lavalight, "Lavalight, wavefront", ["--schedule", "wavefront"]))
     renderers += [mitsuba(variant, options.threads) for variant in options.variants]
     if options.cycles:
         renderers.append(cycles(options.cycles, options.threads))

@@ -82,7 +82,7 @@ class Writer {
             file.write(reinterpret_cast<const char*>(&word), sizeof word);
     }
 
-    // Returns the accessor's number.
+    // Adds an accessor and returns its number.
     template <typename T>
     size_t addAccessor(const std::vector<T>& data, int componentType, const char* type, size_t count) {
         const std::span<const std::byte> bytes = std::as_bytes(std::span(data));

@@ -5,7 +5,7 @@
 const uint kDimensionDice = 0u; // 2-D
 const uint kDimensionPick = 1u; // 1-D
 
-// 1 to 6: 32 bits times 6, the whole part. Faces differ in probability by less than 2^-29.
+// A face, 1 to 6: 32 bits times 6, the whole part. Faces differ in probability by less than 2^-29.
 float faceOf(uint bits) {
     uint whole;
     uint fraction;

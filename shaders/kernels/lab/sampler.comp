@@ -4,7 +4,7 @@
 
 const uint kDimensionPoint = 0u; // 2-D
 
-// Rational functions alone: the error of a driver's exp or sin would be taken for the sampler's.
+// Integrands are rational functions: the error of a driver's exp or sin would be taken for the sampler's.
 float sampleOnce(SampleKey key) {
     const vec2 p = sample2D(key, kDimensionPoint);
     if (run.variant == kIntegrandBump)

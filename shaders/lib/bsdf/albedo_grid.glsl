@@ -20,7 +20,7 @@ float roughnessOfRow(float row, float least) {
     return least + row / kLastAlbedoRow * (1.0 - least);
 }
 
-// Of the GGX lobe.
+// Place of a cosine among the columns of the GGX lobe.
 float specularColumn(float cosTheta, float roughness) {
     const float s = sqrt(clamp(cosTheta, 0.0, 1.0));
     const float k = 2.0 * roughness;
@@ -34,7 +34,7 @@ float cosineOfSpecularColumn(float column, float roughness) {
     return s * s;
 }
 
-// Of sheen, which grows fast towards the horizon.
+// Place of a cosine among the columns of sheen, which grows fast towards the horizon.
 float sheenColumn(float cosTheta) {
     return sqrt(clamp(cosTheta, 0.0, 1.0)) * kLastAlbedoColumn;
 }

@@ -99,7 +99,7 @@ bool isSmoothLobe(Surface s, uint lobe) {
     return isSmooth(s) && (lobe == kLobeSpecular || lobe == kLobeGlass);
 }
 
-// Of the lobe that was chosen; not for smooth ones.
+// Direction drawn from the lobe that was chosen, which must not be smooth.
 vec3 sampleLobe(Surface s, vec3 wo, vec2 u, LobeChoice choice) {
     vec3 wi = sampleDiffuse(u);
     if (sceneHas(kFeatureDiffuseTransmission) && choice.lobe == kLobeThrough)

@@ -1,4 +1,4 @@
-// Which lobe a direction is drawn from: by their shares of the directional albedo.
+// Which lobe a direction is drawn from: lobes are chosen by their shares of the directional albedo.
 #include "lib/bsdf/layers.glsl"
 
 struct LobeProbabilities {

@@ -19,7 +19,7 @@ vec3 toClearcoat(Clearcoat c, vec3 w) {
     return toLocal(makeBasis(c.normal), w);
 }
 
-// 0: lost, below the horizon of the coat or of the surface.
+// Draws wi; 0 if it is lost, below the horizon of the coat or of the surface.
 vec3 sampleClearcoat(Clearcoat c, vec2 u, vec3 wo) {
     const vec3 o = toClearcoat(c, wo);
     const vec3 wi = toWorld(makeBasis(c.normal), sampleSpecular(u, vec3(o.xy, max(o.z, 1e-4)), vec2(c.alpha)));

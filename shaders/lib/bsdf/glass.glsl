@@ -12,7 +12,7 @@ struct Glass {
     vec2 alpha;
     float eta;   // index on the other side / index on the side of wo; thin wall: of its material / outside
     bool isThin; // a wall without inside: light passes straight, spread as by reflection and mirrored
-    Film film;   // on its outside
+    Film film;   // film on the outside
 };
 
 // Reflectance; equal in all channels unless a film colours it.
@@ -28,12 +28,12 @@ vec3 glassFresnel(Glass g, float cosTheta) {
     return mix(vec3(plain), filmReflectance(g.film, vec3(r * r), cosOutside), g.film.weight);
 }
 
-// With which reflection is drawn.
+// Probability with which reflection is drawn.
 float reflectionProbability(vec3 fresnel) {
     return sceneHas(kFeatureIridescence) ? (fresnel.x + fresnel.y + fresnel.z) * (1.0 / 3.0) : fresnel.x;
 }
 
-// Direction through a facet m with wo.m > 0; only where there is no total internal reflection. Snell's law.
+// Direction through a facet m with wo.m > 0, by Snell's law; only where there is no total internal reflection.
 vec3 throughFacet(Glass g, vec3 wo, vec3 m) {
     const float cosO = dot(wo, m);
     if (g.isThin)
@@ -70,8 +70,8 @@ bool isFacetSeen(Glass g, vec3 wo, vec3 wi, vec3 m) {
     return wi.z > 0.0 || g.isThin || dot(wi, m) < 0.0;
 }
 
-// Draws wi; u.xy the facet, v whether it reflects. 0: lost to masking, on the wrong side. Smooth glass is a delta lobe: m is
-// the normal.
+// Draws wi: u.xy the facet, v whether it reflects; 0 if it is lost to masking, on the wrong side. Smooth glass is a delta
+// lobe: m is the normal.
 vec3 sampleGlass(Glass g, vec3 wo, vec2 u, float v) {
     const vec3 m = g.alpha.x < kSmoothAlpha ? vec3(0.0, 0.0, 1.0) : squareToVisibleNormal(u, wo, g.alpha);
     const bool reflects = v < reflectionProbability(glassFresnel(g, dot(wo, m)));

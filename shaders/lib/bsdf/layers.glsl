@@ -6,10 +6,10 @@
 vec2 specularAlbedoTerms(float cosTheta, float alpha);
 // What the lobe loses between its facets if these reflect everything: 1 - x - y.
 float specularMaskingLoss(float cosTheta, float alpha);
-// The same, averaged over the hemisphere by the cosine.
+// Terms and loss averaged over the hemisphere by the cosine.
 vec2 specularAlbedoAverage(float alpha);
 float specularMaskingLossAverage(float alpha);
-// Of white sheen, which may exceed 1.
+// Directional albedo of white sheen, which may exceed 1.
 float charlieAlbedo(float cosTheta, float alpha);
 
 float meanOf(vec3 v) {
@@ -37,12 +37,12 @@ float uncovered(Surface s, vec3 w) {
     return max(0.0, 1.0 - dot(s.coating, specularAlbedoTerms(w.z, alphaTowards(s, w))));
 }
 
-// What a single reflection from white facets loses; of the metal's multiple scattering.
+// What a single reflection from white facets loses, for the metal's multiple scattering.
 float maskingLoss(Surface s, vec3 w) {
     return specularMaskingLoss(w.z, alphaTowards(s, w));
 }
 
-// At least: an anisotropic lobe loses more than one of its smaller alpha.
+// What the lobe loses on average, at least: an anisotropic one loses more than one of its smaller alpha.
 float averageMaskingLoss(vec2 alpha) {
     return specularMaskingLossAverage(alpha.x);
 }
@@ -71,7 +71,7 @@ float throughClearcoat(Surface s, vec3 wo, vec3 wi) {
     return 1.0 - max(clearcoatAlbedo(s.clearcoat, wo), clearcoatAlbedo(s.clearcoat, above));
 }
 
-// The same for sheen, as in KHR_materials_sheen.
+// What is left to layers below sheen, as in KHR_materials_sheen.
 float throughSheen(Surface s, float cosO, float cosI) {
     if (!hasSheen(s))
         return 1.0;
@@ -79,13 +79,14 @@ float throughSheen(Surface s, float cosO, float cosI) {
     return 1.0 - largestOf(s.sheen.color) * min(e, 1.0);
 }
 
-// f |cos|. The authors' fit reflects more than it receives at grazing angles below a roughness of 0.3; that is taken back.
+// f |cos| of sheen. The authors' fit reflects more than it receives at grazing angles below a roughness of 0.3; this takes
+// that back.
 vec3 evalSheen(Sheen sheen, vec3 wo, vec3 wi) {
     const float e = max(charlieAlbedo(wo.z, sheen.alpha), charlieAlbedo(wi.z, sheen.alpha));
     return sheen.color * (evalCharlie(sheen.alpha, wo, wi) / max(1.0, e));
 }
 
-// What light from wo the lobes send anywhere.
+// Share of the light from wo that each lobe sends anywhere.
 struct LobeAlbedos {
     vec3 diffuse;
     vec3 through;

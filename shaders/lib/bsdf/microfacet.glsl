@@ -5,7 +5,7 @@
 #include "lib/math/constants.glsl"
 #include "shared/scene.h"
 
-// Walter 2007, eq. 33, stretched as in Heitz 2014, eq. 85, with m a unit vector: D(m).
+// D(m) of Walter 2007, eq. 33, stretched as in Heitz 2014, eq. 85, with m a unit vector.
 float ggxD(vec3 m, vec2 alpha) {
     const float a2 = alpha.x * alpha.y;
     // a2 ((mx / ax)^2 + (my / ay)^2 + mz^2), written without cancellation near the peak.
@@ -24,7 +24,7 @@ float ggxG1(vec3 w, vec2 alpha) {
     return 1.0 / (1.0 + ggxLambda(w, alpha));
 }
 
-// Height-correlated; Heitz 2014, eq. 99.
+// Height-correlated masking and shadowing; Heitz 2014, eq. 99.
 float ggxG2(vec3 wo, vec3 wi, vec2 alpha) {
     return 1.0 / (1.0 + ggxLambda(wo, alpha) + ggxLambda(wi, alpha));
 }

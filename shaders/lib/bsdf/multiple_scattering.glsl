@@ -10,7 +10,7 @@ vec3 multipleScatteringColor(vec3 f0, float loss) {
     return average * average * (1.0 - loss) / (1.0 - average * loss);
 }
 
-// f |cos|; losses towards wo and wi and on average. Over wi it integrates to color * lossO.
+// f |cos| from the losses towards wo and wi and on average. Over wi it integrates to color * lossO.
 vec3 evalMultipleScattering(vec3 color, vec3 wi, float lossO, float lossI, float loss) {
     return color * (lossO * lossI / max(loss, 1e-6) * kInvPi * wi.z);
 }

@@ -3,7 +3,7 @@
 // System", 2017, appendix A.3.
 #include "lib/math/onb.glsl"
 
-// A texel's vector in the frame that the basis gives, unit length. scale: of its x and y.
+// A texel's vector in the frame that the basis gives, of unit length. scale: factor of its x and y.
 vec3 mappedNormal(Basis frame, vec3 texel, float scale) {
     const vec3 v = (2.0 * texel - 1.0) * vec3(scale, scale, 1.0);
     const vec3 n = toWorld(frame, v);

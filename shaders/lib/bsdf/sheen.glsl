@@ -3,8 +3,8 @@
 #include "lib/math/constants.glsl"
 #include "lib/sampling/warp.glsl"
 
-// Below it the lobe is a rim that no image resolves, and the authors' fit of masking reflects several times what
-// it receives.
+// Below this roughness the lobe is a rim that no image resolves, and the authors' fit of masking reflects several times
+// what it receives.
 const float kLeastSheenRoughness = 0.1;
 
 struct Sheen {
@@ -12,7 +12,7 @@ struct Sheen {
     float alpha; // sheen roughness^2
 };
 
-// "Charlie": powers of the sine of the angle between facet and surface. Estevez, Kulla 2017, eq. 2.
+// The distribution "Charlie": powers of the sine of the angle between facet and surface. Estevez, Kulla 2017, eq. 2.
 float charlieD(float cosTheta, float alpha) {
     const float sin2 = max(0.0, 1.0 - cosTheta * cosTheta);
     return (2.0 + 1.0 / alpha) * pow(sin2, 0.5 / alpha) * 0.5 * kInvPi;
@@ -34,9 +34,9 @@ float charlieLambda(float cosTheta, float alpha) {
     return exp(cosTheta < 0.5 ? low : 2.0 * charlieFit(0.5, alpha) - low);
 }
 
-// All directions alike: as the lobe grows towards the horizon, their weights stay bounded and spread less than half as far as
-// those of directions by the cosine (measured: relative deviations of 0.2 to 1.9 against 0.5 to 7); facets drawn by D would
-// mostly reflect below the horizon.
+// Draws all directions alike: as the lobe grows towards the horizon, their weights stay bounded and spread less than half as
+// far as with directions by the cosine (measured: relative deviations of 0.2 to 1.9 against 0.5 to 7); facets drawn by D
+// would mostly reflect below the horizon.
 vec3 sampleSheen(vec2 u) {
     return squareToUniformHemisphere(u);
 }

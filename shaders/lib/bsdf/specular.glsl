@@ -6,7 +6,7 @@
 #include "lib/bsdf/thin_film.glsl"
 
 struct Specular {
-    vec3 f0; // of the mix of dielectric and metal
+    vec3 f0; // F0 of the mix of dielectric and metal
     float f90;
     vec2 alpha; // roughness^2 along x and y; y is the smaller one
     Film film;
@@ -19,7 +19,7 @@ vec3 specularFresnel(Specular s, float cosTheta) {
     return mix(plain, s.f90 * filmReflectance(s.film, s.f0 / max(s.f90, 1e-6), cosTheta), s.film.weight);
 }
 
-// 0: lost to masking, below the horizon.
+// Draws wi; 0 if it is lost to masking, below the horizon.
 vec3 sampleSpecular(vec2 u, vec3 wo, vec2 alpha) {
     const vec3 wi = reflect(-wo, squareToVisibleNormal(u, wo, alpha));
     return wi.z > 0.0 ? wi : vec3(0.0);

@@ -51,7 +51,7 @@ bool isSmoothAlpha(float alpha) {
     return !sceneHas(kFeatureRoughLobes) || (sceneHas(kFeatureSmoothLobes) && alpha < kSmoothAlpha);
 }
 
-// Of its specular and glass lobes, if there are any.
+// Whether the specular and glass lobes are smooth, if there are any.
 bool isSmooth(Surface s) {
     return isSmoothAlpha(s.specular.alpha.x);
 }

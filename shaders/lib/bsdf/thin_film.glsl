@@ -12,7 +12,7 @@ struct Film {
     float thickness; // nm
 };
 
-// Belcour, Barla 2017, section 4: a spectrum cos(2 pi opd / lambda + shift) in linear Rec. 709. Their fit of the colour
+// A spectrum cos(2 pi opd / lambda + shift) in linear Rec. 709: Belcour, Barla 2017, section 4. Their fit of the colour
 // matching functions, two Gaussians for X, one each for Y and Z, has these Fourier transforms; per channel the integral is 1
 // at opd 0. opd: difference of optical paths, nm; one shift a channel (it depends on the base).
 vec3 interferenceColor(float opd, vec3 shift) {
@@ -22,7 +22,7 @@ vec3 interferenceColor(float opd, vec3 shift) {
     const vec4 wave = envelope * cos(phase * vec4(1.6810e-3, 1.7953e-3, 2.2084e-3, 2.2399e-3) + shift.xyzx);
     const mat3 xyzToRgb = mat3(3.2404542, -0.9692660, 0.0556434, -1.5371385, 1.8760108, -0.2040259, -0.4985314,
                                0.0415560, 1.0572252);
-    const vec3 equalEnergy = vec3(1.2053, 0.9484, 0.9092); // of the matrix and the fit
+    const vec3 equalEnergy = vec3(1.2053, 0.9484, 0.9092); // what matrix and fit make of equal energy
     return xyzToRgb * vec3(wave.x + wave.w, wave.yz) / equalEnergy;
 }
 
@@ -80,7 +80,7 @@ FilmBound filmBound(Film film, vec3 f0) {
     return bound;
 }
 
-// f0: of the base in air, along the normal. Airy's sum over the reflections within the film, to the second order.
+// Airy's sum over the reflections within the film, to the second order. f0: of the base in air, along the normal.
 vec3 filmReflectance(Film film, vec3 f0, float cosTheta) {
     const float cos2Inside = 1.0 - (1.0 - cosTheta * cosTheta) / (film.ior * film.ior);
     if (cos2Inside <= 0.0)

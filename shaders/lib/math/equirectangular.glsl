@@ -6,7 +6,7 @@
 //   v = 1 +----------- -Y everywhere -----------+
 #include "lib/math/constants.glsl"
 
-// u in [0, 1], v in [0, 1]. By the angle's tangent also near the poles, where an arc cosine knows no more than 3e-4 of it.
+// u in [0, 1], v in [0, 1]. The angle's tangent serves near the poles too, where an arc cosine is off by up to 3e-4.
 vec2 directionToEquirectangular(vec3 d) {
     const float across = length(d.xz);
     const float phi = across > 0.0 ? atan(d.z, d.x) : 0.0;
@@ -19,8 +19,8 @@ vec3 equirectangularToDirection(vec2 uv) {
     return vec3(cos(phi) * sin(theta), cos(theta), sin(phi) * sin(theta));
 }
 
-// Uniform per solid angle between the parallels v.x and v.y: `place` from 0 to 1 by sin^2(theta / 2), which keeps its
-// digits at the pole.
+// Direction uniform per solid angle between the parallels v.x and v.y: `place` from 0 to 1 by sin^2(theta / 2), which keeps
+// its digits at the pole.
 vec3 unitToEquirectangularRow(float u, float place, vec2 v) {
     const vec2 h = sin(0.5 * kPi * v);
     const float s = mix(h.x * h.x, h.y * h.y, place);
@@ -29,7 +29,7 @@ vec3 unitToEquirectangularRow(float u, float place, vec2 v) {
     return vec3(cos(phi) * across, 1.0 - 2.0 * s, sin(phi) * across);
 }
 
-// The place of the parallel v among them.
+// The place of the parallel v between the parallels `bounds`.
 float equirectangularRowToUnit(float v, vec2 bounds) {
     const float h = sin(0.5 * kPi * v);
     const vec2 ends = sin(0.5 * kPi * bounds);

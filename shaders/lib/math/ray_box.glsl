@@ -24,7 +24,7 @@ const float kSmallestDirection = 1e-18;
 struct SlabRay {
     vec3 origin;
     vec3 inverse;   // 1 / direction
-    vec3 tolerance; // of a plane's t, per unit of distance from the ray's origin to the box
+    vec3 tolerance; // tolerance of a plane's t, per unit of distance from the ray's origin to the box
     bvec3 backwards; // direction is negative
 };
 
@@ -77,9 +77,9 @@ NodeSlabs nodeSlabs(SlabRay ray, BvhNode node) {
     return NodeSlabs(uintBitsToFloat(exponents << 23u) * ray.inverse, originT - slack, originT + slack);
 }
 
-// Of four boxes, whose planes are the bytes of one word each: a key, sorting by where the ray enters, at least 0: the bits of
-// that distance, of which the three lowest give way to the box's slot; and the slot's bit. kMissed and 0 where the box is not
-// asked for, or the ray has left it, or is beyond tMax, before it enters.
+// Four boxes, whose planes are the bytes of one word each. A box's key sorts by where the ray enters: the bits of that
+// distance, at least 0, of which the three lowest give way to the box's slot. With it goes the slot's bit. They are kMissed
+// and 0 where the box is not asked for, or the ray has left it, or is beyond tMax, before it enters.
 struct FourBoxes {
     uvec4 keys;
     uvec4 bits;

@@ -57,8 +57,8 @@ float edgeFunction(vec3 a, vec3 b) {
     return result;
 }
 
-// True for a hit with 0 < t < tMax.
-bool intersectTriangle(ShearedRay ray, vec3 v0, vec3 v1, vec3 v2, float tMax, out TriangleHit hit) {
+// True for a hit with t > 0.
+bool intersectTriangle(ShearedRay ray, vec3 v0, vec3 v1, vec3 v2, out TriangleHit hit) {
     vec3 a = shearCorner(ray, v0);
     vec3 b = shearCorner(ray, v1);
     vec3 c = shearCorner(ray, v2);
@@ -71,7 +71,7 @@ bool intersectTriangle(ShearedRay ray, vec3 v0, vec3 v1, vec3 v2, float tMax, ou
     hit.barycentrics = weights.yz;
     hit.front = (determinant > 0.0) == (ray.shear.z > 0.0);
     bool inside = all(greaterThanEqual(edges, vec3(0.0))) || all(lessThanEqual(edges, vec3(0.0)));
-    return inside && determinant != 0.0 && hit.t > 0.0 && hit.t < tMax;
+    return inside && determinant != 0.0 && hit.t > 0.0;
 }
 
 #endif

@@ -1,12 +1,12 @@
 // Russian roulette: the probability with which a path goes on.
-// Based on: Arvo, Kirk, "Particle Transport and Image Synthesis", SIGGRAPH 1990; the albedo kinds as in the course.
+// Based on: Arvo, Kirk, "Particle Transport and Image Synthesis", SIGGRAPH 1990; the albedo kinds as in the lecture.
 #include "shared/frame.h"
 
 // Survival by throughput stays below this, or a path between white walls would never end.
 const float kMaxSurvival = 0.95;
 
-// Kinds whose probability is known before the next direction is drawn. 1 where nothing can be killed: the caller must not
-// divide then.
+// Survival by the kinds whose probability is known before the next direction is drawn. 1 where nothing can be killed: the
+// caller must not divide then.
 float survivalByAlbedo(uint kind, float constantProbability, vec3 albedo) {
     if (kind == kRouletteConstant)
         return constantProbability;
@@ -17,9 +17,9 @@ float survivalByAlbedo(uint kind, float constantProbability, vec3 albedo) {
     return 1.0;
 }
 
-// The kinds that go by what the path carries: `throughput` after the next direction is drawn, without the scaling by
-// eta^2 that radiance undergoes inside glass. Its square root, as Cycles takes it, kills less: a path that dies early
-// costs more in variance than it saves (docs/performance.md).
+// Survival by the kinds that go by what the path carries: `throughput` after the next direction is drawn, without the scaling
+// by eta^2 that radiance undergoes inside glass. The square root, as Cycles takes it, kills less: a path that dies early costs
+// more in variance than it saves (docs/performance.md).
 float survivalByThroughput(uint kind, vec3 throughput) {
     if (kind != kRouletteThroughput && kind != kRouletteSqrtThroughput)
         return 1.0;

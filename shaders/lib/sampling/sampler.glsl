@@ -13,7 +13,7 @@ const uint kDimensionRoulette = 5u;    // 1-D: survival
 const uint kDimensionChannel = 6u;     // 1-D: which colour a dispersing body refracts
 const uint kDimensionLens = 7u;        // 2-D: point on the lens (camera vertex)
 const uint kDimensionAlpha = 8u;       // 1-D, with each triangle: whether the ray from here passes through
-const uint kDimensionShadowAlpha = 9u; // the same for the shadow ray
+const uint kDimensionShadowAlpha = 9u; // 1-D, with each triangle: whether the shadow ray passes through
 const uint kDimensionTexel = 10u;      // 2-D: which of four texels, with --texture-filter stochastic
 
 struct SampleKey {

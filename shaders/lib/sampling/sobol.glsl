@@ -23,8 +23,8 @@ uint scrambledVanDerCorput(uint index, uint seed) {
     return bitfieldReverse(nestedPermutation(index, seed));
 }
 
-// The same for dimension 1, whose matrix is Pascal's triangle modulo 2: a Kronecker power of (1 1; 0 1), applied in five
-// steps instead of 32.
+// Owen's scramble of Sobol's dimension 1, whose matrix is Pascal's triangle modulo 2: a Kronecker power of (1 1; 0 1), applied
+// in five steps instead of 32.
 uint scrambledSobol1(uint index, uint seed) {
     index ^= (index & 0xaaaaaaaau) >> 1u;
     index ^= (index & 0xccccccccu) >> 2u;

@@ -1,7 +1,7 @@
 // Warps from the unit square, each with its density.
 #include "lib/math/constants.glsl"
 
-// Disk of radius 1, equal areas, small distortion.
+// Disk of radius 1, with equal areas and small distortion.
 // Shirley, Chiu, "A Low Distortion Map Between Disk and Square", JGT 2(3), 1997.
 vec2 squareToDisk(vec2 u) {
     const vec2 p = 2.0 * u - 1.0;
@@ -51,12 +51,12 @@ vec2 squareToTriangle(vec2 u) {
     return u;
 }
 
-// Per area, for a triangle of that area.
+// Density per area, for a triangle of that area.
 float squareToTrianglePdfArea(float area) {
     return 1.0 / area;
 }
 
-// [0, 1] by a density that is linear from `first` to `last`, neither of them negative: the inverse of its integral, in the
+// Interval [0, 1] by a density linear from `first` to `last`, neither of them negative: the inverse of its integral, in the
 // form that loses no digits where the two are equal. Uniform where both are 0.
 float unitToLinear(float u, float first, float last) {
     const float sum = first + last;

@@ -18,14 +18,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What its holder has written there: the number of its process.
+// What the lock's holder has written into the file: the number of its process.
 std::string contents(int descriptor) {
     std::array<char, 32> bytes{};
     const ssize_t count = ::pread(descriptor, bytes.data(), bytes.size(), 0);
     return {bytes.data(), count > 0 ? static_cast<size_t>(count) : 0};
 }
 
-// False: the file was removed, or replaced, between its opening and its locking.
+// Whether the file still has its name; not if it was removed or replaced between opening and locking.
 bool isStillThere(int descriptor, const fs::path& path) {
     struct stat opened {};
     struct stat named {};
@@ -55,7 +55,7 @@ FileLock::FileLock(const fs::path& file) : path_(file) {
         return; // the number is for messages alone
 }
 
-// Removed before it is unlocked: whoever has opened it meanwhile finds it gone.
+// The file is removed before it is unlocked: whoever has opened it meanwhile finds it gone.
 FileLock::~FileLock() {
     std::error_code ignored;
     fs::remove(path_, ignored);

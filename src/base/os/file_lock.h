@@ -5,8 +5,8 @@
 
 namespace lavalight {
 
-// While one lives, nobody else gets one for the same file. It is a lock of the system's on a file beside it
-// (.lock), which the system drops where a process is killed. File systems that know no locks are trusted.
+// While a lock lives, nobody else gets one for the same file. The system holds it on a file beside that one
+// (.lock) and drops it where a process is killed. File systems that know no locks are trusted.
 class FileLock {
   public:
     // Throws Error where another one has it, naming its process, or where the folder is not writable.

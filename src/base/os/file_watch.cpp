@@ -27,7 +27,7 @@ constexpr uint32_t kSaves =
 
 FileWatch::FileWatch(fs::path folder, Means means) : folder_(std::move(folder)) {
     if (!fs::is_directory(folder_))
-        throw Error(fmt::format("cannot watch {}: it is no folder", folder_.string()));
+        throw Error(fmt::format("cannot watch {}: it is not a directory", folder_.string()));
     if (means == Means::automatic)
         notices_ = inotify_init1(IN_NONBLOCK | IN_CLOEXEC);
     watchFolders();
@@ -39,7 +39,7 @@ FileWatch::~FileWatch() {
         close(notices_);
 }
 
-// inotify knows single folders: each below ours is added, those known already again, which changes nothing.
+// inotify watches single folders: each one below ours is added. Adding a known one again changes nothing.
 void FileWatch::watchFolders() {
     if (notices_ < 0)
         return;
@@ -66,7 +66,7 @@ FileWatch::Snapshot FileWatch::take() const {
     return snapshot;
 }
 
-// False: nothing to be told yet.
+// Whether there is something to tell.
 bool FileWatch::sleepUntilNotice(milliseconds atMost) {
     if (notices_ < 0) {
         std::this_thread::sleep_for(std::min(atMost, kPollingInterval));

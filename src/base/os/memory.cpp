@@ -34,12 +34,12 @@ std::optional<uint64_t> numberIn(const std::string& path, std::string_view key) 
     return std::nullopt;
 }
 
-// Of the system: free memory and what it can give up at once.
+// Memory that the system has free or can give up at once, in bytes.
 uint64_t systemMemory() {
     return numberIn("/proc/meminfo", "MemAvailable:").value_or(kUnlimited / kKibibyte) * kKibibyte;
 }
 
-// Of addresses, where `ulimit -v` bounds them.
+// Bytes of address space that are left where `ulimit -v` bounds it.
 uint64_t addressSpace() {
     rlimit limit{};
     if (::getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY)
@@ -50,8 +50,8 @@ uint64_t addressSpace() {
     return limit.rlim_cur - std::min<uint64_t>(used, limit.rlim_cur);
 }
 
-// Of the control group, where containers have one: its limit without the memory of its processes. What it
-// holds of files can be given up.
+// What the control group of a container leaves: its limit without the memory of its processes. What it holds
+// of files can be given up.
 uint64_t groupMemory() {
     std::string line;
     std::getline(std::ifstream("/proc/self/cgroup"), line);
@@ -78,7 +78,7 @@ uint64_t availableMemory() {
 }
 
 std::string memoryShortage(uint64_t bytes) {
-    constexpr uint64_t kAlways = 1u << 24; // not worth the asking
+    constexpr uint64_t kAlways = 1u << 24; // bytes; less is not worth asking for
     if (bytes <= kAlways)
         return {};
     const uint64_t available = availableMemory();

@@ -15,11 +15,11 @@ namespace lavalight {
 // available".
 [[nodiscard]] std::string memoryShortage(uint64_t bytes);
 
-// For programs of hours: from now on, blocks of 1 MiB or more (images, films, what lavapipe takes for
-// buffers) go back to the system when they are freed, and all threads share two heaps. By itself glibc raises
-// that limit to the size of what was freed, up to 32 MiB, and then keeps such blocks scattered in its heaps,
-// of which it makes eight for each processor: a window that was resized 160 times held 409 MiB, and with this
-// 234. Does nothing with another C library.
+// Keeps programs small that run for hours: from now on, blocks of 1 MiB or more (images, films, what lavapipe
+// takes for buffers) go back to the system when they are freed, and all threads share two heaps. By itself
+// glibc raises that limit to the size of what was freed, up to 32 MiB, and then keeps such blocks scattered
+// in its heaps, eight for each processor: a window that was resized 160 times held 409 MiB, and with this
+// call 234. Does nothing with another C library.
 void keepHeapSmall();
 
 } // namespace lavalight

@@ -47,7 +47,7 @@ double median(std::vector<double> values) {
 bool isSame(const TracedHit& ours, const OracleHit& theirs) {
     if (std::isinf(ours.t) || std::isinf(theirs.t))
         return std::isinf(ours.t) && std::isinf(theirs.t);
-    return ours.triangle == theirs.triangle || std::abs(ours.t - theirs.t) <= 1e-5f * theirs.t;
+    return ours.surface.primitive == theirs.triangle || std::abs(ours.t - theirs.t) <= 1e-5f * theirs.t;
 }
 
 bool isSame(uint32_t ours, uint8_t theirs) {

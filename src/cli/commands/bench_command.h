@@ -20,8 +20,8 @@ class BenchCommand : public Command {
   private:
     std::string scene_;
     ImportOptions import_;
-    std::optional<DeviceOptions> deviceOptions_; // always
-    uint32_t rays_ = 1000000;                    // of the camera; the others start where these hit
+    std::optional<DeviceOptions> deviceOptions_; // always there
+    uint32_t rays_ = 1000000;                    // number of camera rays; the others start where these hit
     uint32_t repeats_ = 5;
     bool json_ = false;
 };

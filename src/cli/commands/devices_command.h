@@ -8,7 +8,7 @@ namespace lavalight {
 class DevicesCommand : public Command {
   public:
     explicit DevicesCommand(CLI::App& app);
-    // 1 if no device can render.
+    // Prints the devices; the exit code is 1 if none can render.
     [[nodiscard]] int run() override;
 
   private:

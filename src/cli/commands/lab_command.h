@@ -24,7 +24,7 @@ class LabCommand : public Command {
 
     std::string experiment_ = "list";
     LabOptions options_;
-    std::optional<DeviceOptions> deviceOptions_; // always
+    std::optional<DeviceOptions> deviceOptions_; // always there
     bool json_ = false;
     bool csv_ = false;
 };

@@ -15,8 +15,8 @@
 namespace lavalight {
 namespace {
 
-// Of those that a render uses. Headers of shared/ are not for experiments: the program's own memory is laid
-// out by them.
+// Paths of the files that a render uses. Headers of shared/ are not for experiments: the program's own memory
+// is laid out by them.
 std::vector<std::string> filesToChange() {
     std::vector<std::string> paths = embeddedShaderPaths();
     std::erase_if(paths, [](const std::string& path) {
@@ -65,15 +65,15 @@ int NewExperimentCommand::run() {
     const std::vector<std::string> known = filesToChange();
     if (std::find(known.begin(), known.end(), file_) == known.end())
         throw UsageError(
-            fmt::format("new-experiment: {} is none of the shaders: {}", file_, fmt::join(known, ", ")));
+            fmt::format("new-experiment: {} is not one of the shaders: {}", file_, fmt::join(known, ", ")));
     const fs::path copy = fs::path(folder_) / file_;
     if (fs::exists(copy))
-        throw Error(fmt::format("{} is there already: it would be overwritten", copy.string()));
+        throw Error(fmt::format("cannot write {}: it exists already; give another folder", copy.string()));
     std::error_code failure;
     fs::create_directories(copy.parent_path(), failure);
     if (failure)
-        throw Error(
-            fmt::format("cannot make the folder {}: {}", copy.parent_path().string(), failure.message()));
+        throw Error(fmt::format("cannot create the directory {}: {}", copy.parent_path().string(),
+                                failure.message()));
     writeFileAtomically(copy, *embeddedShader(file_));
     const fs::path readme = fs::path(folder_) / "README.md";
     if (!fs::exists(readme))

@@ -10,8 +10,8 @@ namespace lavalight {
 class NewExperimentCommand : public Command {
   public:
     explicit NewExperimentCommand(CLI::App& app);
-    // Copies the embedded file to FOLDER/FILE and adds a README.md. Throws UsageError for a file that there
-    // is not, Error where either is there already.
+    // Copies the embedded file to FOLDER/FILE and adds a README.md. Throws UsageError for a file that does
+    // not exist, Error where either is there already.
     [[nodiscard]] int run() override;
 
   private:

@@ -6,13 +6,12 @@
 
 #include "cli/command.h"
 #include "cli/options/checkpoint_options.h"
+#include "cli/options/frame_options.h"
 #include "cli/options/render_options.h"
 #include "cli/options/scene_options.h"
 #include "cli/options/shader_options.h"
 #include "cli/options/tone_options.h"
-#include "session/frame_sequence.h"
-#include "session/report.h"
-#include "session/take.h"
+#include "session/render_session.h"
 
 namespace lavalight {
 
@@ -23,26 +22,17 @@ class RenderCommand : public Command {
     [[nodiscard]] int run() override;
 
   private:
-    // Files to write; empty: none.
-    struct Outputs {
-        std::string exr;
-        std::string png;
-        std::string report;
-        std::string checkpoint;
-    };
-    struct Session; // what the frames of a sequence share
-
-    void requireOutputs(const Outputs& files) const;
-    [[nodiscard]] int runSequence(Session& session) const;
-    [[nodiscard]] int runWatching(Session& session) const;
-    [[nodiscard]] Take prepare(const ImportOptions& moment, Session& session) const;
-    void takeSamples(Take& take, const std::function<bool()>& mayGoOn) const;
-    void write(Take& take, const Outputs& files, Session& session) const;
-    [[nodiscard]] int renderMoment(const Outputs& files, const ImportOptions& moment, Session& session) const;
+    [[nodiscard]] RenderPlan plan() const;
+    void checkOptions() const;
+    [[nodiscard]] int runSequence(RenderSession& session) const;
+    [[nodiscard]] int runWatching(RenderSession& session) const;
+    [[nodiscard]] int renderMoment(RenderSession& session, const ImportOptions& moment,
+                                   const Outputs& outputs, Checkpoint& checkpoint) const;
+    void finishImage(RenderSession& session, RenderJob& job, const Outputs& outputs) const;
 
     RenderOptions options_;
     SceneOptions sceneOptions_;
-    FrameSequence sequence_;
+    FrameOptions frames_;
     ShaderOptions shaders_;
     ToneOptions tone_;
     CheckpointOptions checkpoints_;

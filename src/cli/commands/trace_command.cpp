@@ -7,7 +7,6 @@
 
 #include "base/error.h"
 #include "base/log.h"
-#include "cli/options/environment_options.h"
 #include "cli/options/option_values.h"
 #include "inspect/path_trace.h"
 #include "inspect/traced_fate.h"
@@ -27,7 +26,7 @@ Json vertexJson(const TracedVertex& vertex, uint32_t number, const Scene& scene)
     if (!std::isinf(vertex.t)) {
         json["position"] = list(vertex.position);
         json["distance"] = vertex.t;
-        json["triangle"] = vertex.triangle;
+        json["triangle"] = vertex.surface.primitive;
         json["side"] = (vertex.flags & kTracedFront) != 0 ? "front" : "back";
         json["material"] = scene.materials[vertex.material].name;
     }
@@ -60,35 +59,31 @@ glm::uvec2 TraceCommand::pixelIn(const RenderSettings& settings) const {
     const std::vector<std::string_view> words = splitAt(pixel_, ',');
     const auto x = parseNumber<uint32_t>(words.front());
     const auto y = parseNumber<uint32_t>(words.back());
-    if (words.size() != 2 || !x || !y || *x >= settings.width || *y >= settings.height)
+    if (words.size() != 2 || !x || !y || *x >= settings.image.width || *y >= settings.image.height)
         throw UsageError(fmt::format("--pixel: {} is not X,Y within the image's {} x {} pixels", pixel_,
-                                     settings.width, settings.height));
+                                     settings.image.width, settings.image.height));
     return {*x, *y};
 }
 
 int TraceCommand::run() {
-    RenderSettings settings = options_.settings();
-    const Scene scene = loadLit(scene_, sceneOptions_.importOptions(), settings);
-    for (const std::string& warning : scene.warnings)
-        spdlog::warn("{}", warning);
-    const Camera camera = options_.cameraOf(scene);
-    settings = resolveSize(settings, camera);
-    checkSettings(settings);
-    const glm::uvec2 pixel = pixelIn(settings);
+    const RenderPlan plan = options_.plan(scene_);
+    const PreparedScene prepared = prepareScene(plan, sceneOptions_.importOptions());
+    const glm::uvec2 pixel = pixelIn(prepared.settings);
     const KernelSource source = sourceOf(shaders_.overlay());
-    gpu::Device device(options_.device());
-    const Renderer renderer(device, scene, camera, settings, source);
+    gpu::Device device(plan.device);
+    const Renderer renderer(device, prepared.scene, prepared.camera, prepared.settings, source);
     const TracedPath path = PathTracer(device, renderer, source).trace(renderer, pixel, sample_);
     device.requireNoValidationMessages();
 
     Json json;
-    json["scene"] = scene.source;
-    json["size"] = {settings.width, settings.height};
+    json["scene"] = prepared.scene.source;
+    json["size"] = {prepared.settings.image.width, prepared.settings.image.height};
     json["pixel"] = {pixel.x, pixel.y};
     json["sample"] = sample_;
     json["radiance"] = list(path.radiance);
     for (size_t i = 0; i < path.vertices.size(); ++i)
-        json["vertices"].push_back(vertexJson(path.vertices[i], static_cast<uint32_t>(i + 1), scene));
+        json["vertices"].push_back(
+            vertexJson(path.vertices[i], static_cast<uint32_t>(i + 1), prepared.scene));
     fmt::print("{}\n", json.dump(2));
     return 0;
 }

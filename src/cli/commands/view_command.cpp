@@ -1,13 +1,11 @@
 #include "cli/commands/view_command.h"
 
-#include <filesystem>
 #include <limits>
 #include <memory>
+#include <utility>
 
 #include "base/error.h"
-#include "base/log.h"
 #include "base/os/memory.h"
-#include "cli/options/environment_options.h"
 #include "gpu/vulkan_error.h"
 #include "view/viewer.h"
 
@@ -29,37 +27,33 @@ ViewCommand::ViewCommand(CLI::App& app)
 }
 
 // Without --spp, until the window is closed.
-RenderSettings ViewCommand::settings() {
-    RenderSettings settings = options_.settings();
-    if (settings.seconds > 0.0 || settings.targetError > 0.0)
+RenderPlan ViewCommand::plan() {
+    RenderPlan plan = options_.plan(scene_);
+    RenderSettings& settings = plan.settings;
+    if (settings.stop.seconds > 0.0 || settings.stop.targetError > 0.0)
         throw UsageError("--time and --target-error: a window renders until it is closed, or to --spp");
     if (parser().count("--spp") == 0)
-        settings.samples = std::numeric_limits<int32_t>::max();
-    if (settings.waveSize == 0)
-        settings.waveSize = kWaveSize;
-    return settings;
+        settings.stop.samples = std::numeric_limits<int32_t>::max();
+    if (settings.work.waveSize == 0)
+        settings.work.waveSize = kWaveSize;
+    return plan;
 }
 
 int ViewCommand::run() {
     keepHeapSmall();
-    RenderSettings settings = this->settings();
+    const RenderPlan plan = this->plan();
     if (!isNotWatching_)
         shaders_.watchIfThere();
     const std::shared_ptr<ShaderOverlay> overlay = shaders_.overlay();
     const ImportOptions import = sceneOptions_.importOptions();
-    auto scene = std::make_shared<const Scene>(loadLit(scene_, import, settings));
-    for (const std::string& warning : scene->warnings)
-        spdlog::warn("{}", warning);
-    const Camera camera = options_.cameraOf(*scene);
-    settings = resolveSize(settings, camera);
-    checkSettings(settings);
-    ViewState view{
-        scene_,   import,          scene, CameraRig(camera, scene->bounds), camera, settings.cameraOptions,
-        settings, tone_.settings()};
-    const auto load = [](const SceneOrder& order) {
-        return loadLit(order.source, order.import, order.settings);
-    };
-    ViewerConfig config{std::move(view), options_.device(), load, overlay,
+    PreparedScene prepared = prepareScene(plan, import);
+    const auto scene = std::make_shared<const Scene>(std::move(prepared.scene));
+    const RenderSettings& settings = prepared.settings;
+    ViewState view{scene_,          import,
+                   scene,           CameraRig(prepared.camera, scene->bounds),
+                   prepared.camera, settings.provenance.cameraOptions,
+                   settings,        tone_.settings()};
+    ViewerConfig config{std::move(view), plan.device, overlay,
                         shaders_.isWatching() ? shaders_.folder() : std::string()};
     gpu::checked("draw", "the window", [&] { Viewer(std::move(config)).run(); });
     return 0;

@@ -17,7 +17,7 @@ class ViewCommand : public Command {
     [[nodiscard]] int run() override;
 
   private:
-    [[nodiscard]] RenderSettings settings();
+    [[nodiscard]] RenderPlan plan();
 
     RenderOptions options_;
     SceneOptions sceneOptions_;

@@ -30,7 +30,7 @@ std::string CheckpointOptions::file(const RenderSettings& settings) const {
     if (!(seconds_ >= 0.0 && seconds_ <= 1e9))
         throw UsageError(
             fmt::format("--checkpoint-every: {} is outside the range 0 to 1000000000", seconds_));
-    if (settings.seconds > 0.0)
+    if (settings.stop.seconds > 0.0)
         throw UsageError("--checkpoint and --time: what a time suffices for cannot be had a second time, bit "
                          "for bit; give one of the two (an interrupted render writes its checkpoint)");
     for (const char* option : {"--frames", "--watch"})

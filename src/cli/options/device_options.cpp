@@ -1,12 +1,25 @@
 #include "cli/options/device_options.h"
 
+#include <cstdlib>
 #include <map>
 #include <string>
 
 #include "base/error.h"
+#include "base/log.h"
 #include "cli/options/named_option.h"
 
 namespace lavalight {
+
+namespace {
+
+// Destructors would wait for the device, and so for ever.
+[[noreturn]] void endProcess(const std::string& message) {
+    spdlog::error("{}", message);
+    spdlog::default_logger()->flush();
+    std::_Exit(1);
+}
+
+} // namespace
 
 DeviceOptions::DeviceOptions(CLI::App& parser) {
     parser.add_option("--device", config_.wanted, "Vulkan device by name or index (see lavalight devices)")
@@ -28,8 +41,10 @@ DeviceOptions::DeviceOptions(CLI::App& parser) {
 
 gpu::DeviceConfig DeviceOptions::config() const {
     if (!(config_.kernelTimeout >= 0.0)) // NaN is not
-        throw UsageError("--kernel-timeout is a number of seconds, 0 or more");
-    return config_;
+        throw UsageError("--kernel-timeout: not a number of seconds; give 0 or more");
+    gpu::DeviceConfig config = config_;
+    config.onKernelTimeout = endProcess;
+    return config;
 }
 
 } // namespace lavalight

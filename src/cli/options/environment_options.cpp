@@ -10,8 +10,6 @@
 
 #include "base/error.h"
 #include "cli/options/option_values.h"
-#include "image/environment_file.h"
-#include "session/builtin.h"
 
 namespace lavalight {
 namespace {
@@ -21,18 +19,6 @@ bool isMapName(const std::string& text) {
     constexpr std::array<const char*, 3> kExtensions{".hdr", ".exr", ".pic"};
     return std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end() ||
            std::filesystem::exists(text);
-}
-
-void readEnvironmentMap(const RenderSettings& settings, Scene& scene) {
-    if (settings.environmentFile.empty())
-        return;
-    EnvironmentFile file = readEnvironmentFile(settings.environmentFile);
-    if (file.badTexels > 0)
-        scene.warnings.push_back(
-            fmt::format("{}: {} of {} pixels had negative, infinite or undefined values, "
-                        "which were set to 0",
-                        settings.environmentFile, file.badTexels, file.image.pixels.size()));
-    scene.environmentMap = {settings.environmentFile, std::move(file.image), file.badTexels};
 }
 
 } // namespace
@@ -52,30 +38,25 @@ EnvironmentOptions::EnvironmentOptions(CLI::App& parser) : parser_(&parser) {
         ->type_name("X");
 }
 
-void EnvironmentOptions::applyTo(RenderSettings& settings) const {
-    settings.environmentRotation = rotation_;
-    settings.environmentIntensity = intensity_;
+LightingSettings EnvironmentOptions::lighting() const {
+    LightingSettings lighting;
+    lighting.rotation = rotation_;
+    lighting.intensity = intensity_;
     if (const std::optional<glm::vec3> radiance = parseVector(environment_)) {
         if (glm::any(glm::lessThan(*radiance, glm::vec3(0.0f))))
             throw UsageError(fmt::format("--env: a radiance in \"{}\" is below 0", environment_));
-        settings.environment = radiance;
+        lighting.constant = radiance;
     } else if (isMapName(environment_)) {
-        settings.environmentFile = environment_;
+        lighting.mapFile = environment_;
     } else if (parser_->count("--env") > 0) {
         throw UsageError(
             fmt::format("--env: \"{}\" is neither R,G,B with three radiances of 0 or more nor the "
                         "name of a .hdr or .exr file",
                         environment_));
     }
-    if (parser_->count("--env-rotation") > 0 && settings.environmentFile.empty())
+    if (parser_->count("--env-rotation") > 0 && lighting.mapFile.empty())
         throw UsageError("--env-rotation: there is no map to turn; give one with --env FILE");
-}
-
-Scene loadLit(const std::string& nameOrPath, ImportOptions options, const RenderSettings& settings) {
-    options.bringsLight = settings.environment.has_value() || !settings.environmentFile.empty();
-    Scene scene = loadScene(nameOrPath, options);
-    readEnvironmentMap(settings, scene);
-    return scene;
+    return lighting;
 }
 
 } // namespace lavalight

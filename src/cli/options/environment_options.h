@@ -5,9 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "gltf/import_options.h"
 #include "render/settings.h"
-#include "scene/scene.h"
 
 namespace lavalight {
 
@@ -20,7 +18,7 @@ class EnvironmentOptions {
     EnvironmentOptions& operator=(const EnvironmentOptions&) = delete;
 
     // Throws UsageError naming the option and what it takes.
-    void applyTo(RenderSettings& settings) const;
+    [[nodiscard]] LightingSettings lighting() const;
 
   private:
     CLI::App* parser_; // asked which options were given
@@ -28,10 +26,5 @@ class EnvironmentOptions {
     float rotation_ = 0.0f;
     float intensity_ = 1.0f;
 };
-
-// The scene, built in or a file, with the environment map that the settings name, if they do. What had to be
-// changed in the map becomes a warning of the scene. Throws Error for a file that is no scene, or no map.
-[[nodiscard]] Scene loadLit(const std::string& nameOrPath, ImportOptions options,
-                            const RenderSettings& settings);
 
 } // namespace lavalight

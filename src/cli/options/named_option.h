@@ -13,8 +13,8 @@
 
 namespace lavalight {
 
-// Takes one of the names, whatever their case, and hands on the value's number, which is what the parser
-// stores.
+// A validator that takes one of the names, whatever their case, and hands on the value's number, which is
+// what the parser stores.
 template <typename Value>
 [[nodiscard]] CLI::Validator oneOf(const std::map<std::string, Value>& values) {
     std::vector<std::string> names;

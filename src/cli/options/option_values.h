@@ -22,7 +22,7 @@ template <typename Number>
 
 [[nodiscard]] std::vector<std::string_view> splitAt(std::string_view text, char separator);
 
-// "X,Y,Z", all finite, or nothing.
+// The vector that "X,Y,Z" stands for, all finite, or nothing.
 [[nodiscard]] std::optional<glm::vec3> parseVector(std::string_view text);
 
 } // namespace lavalight

@@ -25,8 +25,8 @@ void parseSize(const std::string& text, RenderSettings& settings) {
     if (!width || !height || *width < 1 || *width > kMaxImageSide || *height < 1 || *height > kMaxImageSide)
         throw UsageError(fmt::format("--size: \"{}\" is not WIDTHxHEIGHT with sides of 1 to {} pixels", text,
                                      kMaxImageSide));
-    settings.width = *width;
-    settings.height = *height;
+    settings.image.width = *width;
+    settings.image.height = *height;
 }
 
 void addSwitch(CLI::App& parser, const std::string& option, bool& value, const std::string& help) {
@@ -64,16 +64,17 @@ void RenderOptions::declareImage(CLI::App& parser) {
 
 void RenderOptions::declareStop(CLI::App& parser) {
     parser
-        .add_option("--spp", settings_.samples, "Samples per pixel; no limit with --time or --target-error")
+        .add_option("--spp", settings_.stop.samples,
+                    "Samples per pixel; no limit with --time or --target-error")
         ->type_name("N");
     parser
         .add_option("--samples", samples_,
                     "Instead of --spp: samples A to before B of each pixel; the EXR can be joined with those "
                     "of other ranges (see lavalight merge)")
         ->type_name("A:B");
-    parser.add_option("--time", settings_.seconds, "Stop after this time")->type_name("SECONDS");
+    parser.add_option("--time", settings_.stop.seconds, "Stop after this time")->type_name("SECONDS");
     parser
-        .add_option("--target-error", settings_.targetError,
+        .add_option("--target-error", settings_.stop.targetError,
                     "Stop at this estimated relMSE; enters the bias ledger")
         ->type_name("RELMSE");
 }
@@ -123,14 +124,14 @@ void RenderOptions::declareRoulette(CLI::App& parser) {
 
 void RenderOptions::declareDevice(CLI::App& parser) {
     device_.emplace(parser);
-    addNamed(parser, "--kernels", settings_.kernels,
+    addNamed(parser, "--schedule,--kernels", settings_.work.schedule,
              "One kernel for whole paths, or one for each step; auto: by device");
     parser
-        .add_option("--wave-size", settings_.waveSize,
+        .add_option("--wave-size", settings_.work.waveSize,
                     "Paths in flight; 0: by the kernels; changes no bit of the image")
         ->type_name("N");
     parser
-        .add_option("--band-rows", settings_.bandRows,
+        .add_option("--band-rows", settings_.work.bandRows,
                     "Rows of a film band; 0: as many as fit; changes no bit of the image")
         ->type_name("N");
 }
@@ -160,13 +161,13 @@ RenderSettings RenderOptions::settings() const {
     settings.estimator.clampIndirect = parseClamp(clampIndirect_);
     if (!samples_.empty())
         takeRange(settings);
-    const bool stopsEarly = settings.seconds > 0.0 || settings.targetError > 0.0;
+    const bool stopsEarly = settings.stop.seconds > 0.0 || settings.stop.targetError > 0.0;
     if (stopsEarly && parser_->count("--spp") == 0)
-        settings.samples = 0x7fffffff;
+        settings.stop.samples = 0x7fffffff;
     if (!size_.empty())
         parseSize(size_, settings);
-    environment_.applyTo(settings);
-    settings.cameraOptions = camera_.given();
+    settings.lighting = environment_.lighting();
+    settings.provenance.cameraOptions = describe(camera_.choice());
     return settings;
 }
 
@@ -180,8 +181,12 @@ void RenderOptions::takeRange(RenderSettings& settings) const {
                 fmt::format("--samples and {}: samples A to before B are exactly those, whatever "
                             "time or error they come to; give one of the two",
                             option));
-    settings.firstSample = ranges->front().first;
-    settings.samples = countOf(*ranges);
+    settings.image.firstSample = ranges->front().first;
+    settings.stop.samples = countOf(*ranges);
+}
+
+RenderPlan RenderOptions::plan(const std::string& scene) const {
+    return {scene, settings(), camera_.choice(), device(), {}};
 }
 
 gpu::DeviceConfig RenderOptions::device() const {

@@ -10,7 +10,7 @@
 #include "cli/options/device_options.h"
 #include "cli/options/environment_options.h"
 #include "render/settings.h"
-#include "scene/scene.h"
+#include "session/render_session.h"
 
 namespace lavalight {
 
@@ -27,8 +27,8 @@ class RenderOptions {
     [[nodiscard]] gpu::DeviceConfig device() const;
     // Whether the image is to hold its exact film.
     [[nodiscard]] bool keepsFilm() const { return !samples_.empty(); }
-    // Throws UsageError as CameraOptions::cameraOf does.
-    [[nodiscard]] Camera cameraOf(const Scene& scene) const { return camera_.cameraOf(scene); }
+    // All of it, for a scene by name or path; how images are written is left open.
+    [[nodiscard]] RenderPlan plan(const std::string& scene) const;
 
   private:
     void declareImage(CLI::App& parser);

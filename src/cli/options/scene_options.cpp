@@ -35,7 +35,7 @@ ImportOptions SceneOptions::importOptions() const {
     ImportOptions options = options_;
     if (parser_->count("--at") > 0) {
         if (!std::isfinite(seconds_))
-            throw UsageError(fmt::format("--at: {} is no time", seconds_));
+            throw UsageError(fmt::format("--at: {} is not a time in seconds", seconds_));
         options.seconds = seconds_;
     } else if (!options.animation.empty()) {
         throw UsageError("--animation: needs a time; give --at SECONDS");

@@ -21,7 +21,7 @@ class SceneOptions {
 
     // Throws UsageError naming the option and what it takes.
     [[nodiscard]] ImportOptions importOptions() const;
-    // The same at a time that is not the user's. Throws UsageError if there is one of the user's too.
+    // The options with a time that is not the user's. Throws UsageError if the user gave one too.
     [[nodiscard]] ImportOptions importOptionsAt(double seconds) const;
 
   private:

@@ -11,7 +11,7 @@
 namespace lavalight {
 namespace {
 
-constexpr const char* kOwnFolder = "shaders"; // of the source tree
+constexpr const char* kOwnFolder = "shaders"; // folder of shaders in the source tree
 
 bool isInSourceTree() {
     return std::filesystem::is_regular_file(std::filesystem::path(kOwnFolder) / "kernels/path.comp");

@@ -20,21 +20,21 @@ class ShaderOptions {
     ShaderOptions(const ShaderOptions&) = delete;
     ShaderOptions& operator=(const ShaderOptions&) = delete;
 
-    // --watch too.
+    // Declares --watch too.
     void declareWatch(CLI::App& parser);
 
-    // As if --watch was given, where there is a folder to watch.
+    // Watches as if --watch were given, where there is a folder to watch.
     void watchIfThere();
     [[nodiscard]] bool isWatching() const { return isWatching_; }
-    // --shaders, or, to watch, the source tree's own where that is the working folder. Throws UsageError
-    // where there is neither.
+    // The folder of --shaders or, to watch, the source tree's own where that is the working folder. Throws
+    // UsageError where there is neither.
     [[nodiscard]] std::string folder() const;
-    // The folder as it is now; null where none was asked for. Warns of files that nothing includes. Throws as
-    // ShaderOverlay does.
+    // An overlay of the folder as it is now; null where none was asked for. Warns of files that nothing
+    // includes. Throws as ShaderOverlay does.
     [[nodiscard]] std::shared_ptr<ShaderOverlay> overlay() const;
 
-    // The folder once the files `changes` are saved; null unless they give the renderer, or the tone mapper
-    // if there is one, other kernels. Tells on stderr what changed, and what does not compile.
+    // An overlay of the folder once the files `changes` are saved; null unless they give the renderer, or the
+    // tone mapper if there is one, other kernels. Tells on stderr what changed, and what does not compile.
     [[nodiscard]] std::shared_ptr<ShaderOverlay> reread(const std::vector<std::string>& changes,
                                                         const Renderer& renderer,
                                                         const ToneMapper* toneMapper = nullptr) const;

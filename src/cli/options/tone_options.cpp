@@ -17,7 +17,7 @@ ToneOptions::ToneOptions(CLI::App& parser) : parser_(&parser) {
 
 ToneSettings ToneOptions::settings() const {
     if (!std::isfinite(tone_.exposure))
-        throw UsageError(fmt::format("--exposure: {} is no number of stops", tone_.exposure));
+        throw UsageError(fmt::format("--exposure: {} is not a number of stops", tone_.exposure));
     return tone_;
 }
 

@@ -5,7 +5,7 @@
 
 namespace lavalight {
 
-// By the exact name. Among them are those that only carry descriptions, which have no effect on a picture.
+// Whether the extension of that exact name is read. Some only carry descriptions, which no picture shows.
 [[nodiscard]] bool isSupportedExtension(std::string_view name);
 
 } // namespace lavalight

@@ -56,7 +56,7 @@ bool appendAttribute(const draco::PointAttribute& attribute, uint32_t points, co
     }
 }
 
-// 0 for matrices, which no attribute is.
+// Components of an element; 0 for matrices, which no attribute is.
 int componentsOf(const Json& accessor) {
     const auto type = accessor.at("type").get<std::string>();
     return type == "SCALAR" ? 1 : type.starts_with("VEC") ? type.back() - '0' : 0;
@@ -82,7 +82,7 @@ class PrimitiveDecoder {
                      const std::string& source)
         : json_(json), buffers_(buffers), name_(std::move(name)), source_(source) {}
 
-    // That the stream states, before any is decoded.
+    // Number of triangles that the stream states, before any is decoded.
     [[nodiscard]] uint64_t triangles(const Json& primitive) const {
         return naming([&] { return statedTriangles(streamOf(primitive)); });
     }
@@ -152,8 +152,8 @@ class PrimitiveDecoder {
     std::vector<GltfBuffer>& buffers_;
     std::string name_;
     const std::string& source_;
-    size_t view_ = 0;   // of the decoded bytes
-    std::string bytes_; // of all attributes and of the indices
+    size_t view_ = 0;   // number of the view of the decoded bytes
+    std::string bytes_; // values of all attributes, and the indices
 };
 
 } // namespace

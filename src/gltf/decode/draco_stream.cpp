@@ -21,12 +21,12 @@ namespace {
 // Draco allocates what the head of a stream states before it reads on. Real streams hold about a triangle a
 // byte; a plane of millions may hold a few dozen.
 constexpr uint64_t kMostTrianglesPerByte = 256;
-// Of attributes: as many points, of 32 bytes each.
+// Bytes of attribute values: as many points, of 32 bytes each.
 constexpr uint64_t kMostValuesPerByte = 32 * kMostTrianglesPerByte;
-// Of a triangle, in the tables of its neighbours that the decoder makes.
+// Bytes of a triangle in the tables of neighbours that the decoder makes.
 constexpr uint64_t kTableBytes = 128;
 
-// Draco reads the same bytes again.
+// The number of triangles that the head states; Draco reads the same bytes again.
 std::optional<uint64_t> trianglesOfHead(std::string_view bytes) {
     draco::DecoderBuffer buffer;
     buffer.Init(bytes.data(), bytes.size());

@@ -18,7 +18,8 @@ namespace {
 
 using Json = nlohmann::json;
 
-// Elements of at most 256 bytes; 16 equal bytes take 2 bits, a triangle (12 bytes at most) one byte.
+// Bytes that a byte of a stream decodes to at most. Elements have at most 256 bytes; 16 equal bytes take 2
+// bits, a triangle (12 bytes at most) one byte.
 constexpr uint64_t kMostExpansion = 64;
 
 struct Codec {
@@ -121,7 +122,7 @@ void decodeView(Json& view, const std::string& name, std::vector<GltfBuffer>& bu
                         bytesOf(buffers, range, where, source)};
     if (const std::string part = unsupportedPart(stream); !part.empty()) {
         if (!buffers.at(view["buffer"].get<size_t>()).bytes.empty())
-            return; // the fallback
+            return; // the file's uncompressed data stands in
         throw gltfError(source, fmt::format("{} uses {}, which is not supported", where, part));
     }
     const auto length = view["byteLength"].get<uint64_t>();

@@ -14,7 +14,7 @@ namespace lavalight {
 struct GltfBuffer {
     size_t byteLength = 0;
     std::string
-        bytes; // byteLength of them, or none: a buffer may be declared without data, for extensions to use
+        bytes; // byteLength bytes, or none: a buffer may be declared without data, for extensions to use
 };
 
 // Each element of `json`'s "buffers": the BIN chunk, or what its uri means (gltf_uri.h). Throws Error.

@@ -82,7 +82,7 @@ std::filesystem::path fileOf(std::string_view uri, const GltfSource& source) {
     if (code)
         throw Error(code.message());
     if (!isInside(file, folder) && !source.allowsExternal)
-        throw Error("it lies outside the scene's folder, where --allow-external would let it be read");
+        throw Error("it lies outside the scene's folder; --allow-external lets it be read");
     return file;
 }
 

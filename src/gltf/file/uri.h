@@ -11,7 +11,7 @@ namespace lavalight {
 // Where a file's own words come from and what it may reach.
 struct GltfSource {
     std::string name;                            // for messages
-    std::optional<std::filesystem::path> folder; // of the scene; none: embedded, no file may be read
+    std::optional<std::filesystem::path> folder; // the scene's folder; none: embedded, no file may be read
     bool allowsExternal = false;                 // files outside the folder may be read
 };
 

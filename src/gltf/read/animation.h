@@ -17,7 +17,7 @@ struct NodePose {
     std::optional<glm::dvec3> translation;
     std::optional<glm::dvec4> rotation; // quaternion x, y, z, w
     std::optional<glm::dvec3> scale;
-    std::vector<double> weights; // of the morph targets; empty: not animated
+    std::vector<double> weights; // weights of the morph targets; empty: not animated
 };
 using Pose = std::vector<NodePose>; // by node; empty: nothing is animated
 

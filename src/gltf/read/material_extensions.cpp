@@ -94,8 +94,8 @@ void readDiffuseTransmission(ExtensionReader& reader) {
     reader.texture("diffuseTransmissionColorTexture", TextureSlot::diffuseTransmissionColor, true);
 }
 
-// F0 is a colour of its own there. An index of refraction of 0 makes the dielectric's F0 1 times
-// specularColor, which is that. There are no metals.
+// In KHR_materials_pbrSpecularGlossiness F0 is a colour of its own. An index of refraction of 0 makes the
+// dielectric's F0 1 times specularColor, which is that. There are no metals.
 void readSpecularGlossiness(ExtensionReader& reader) {
     Material& m = reader.material();
     m.baseColor = reader.color("diffuseFactor", glm::vec3(1.0f));

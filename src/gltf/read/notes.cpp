@@ -9,7 +9,7 @@ namespace lavalight {
 namespace {
 
 constexpr size_t kLongestName = 64; // bytes; a line stays readable
-constexpr size_t kNamedObjects = 8; // of a group; the rest is counted
+constexpr size_t kNamedObjects = 8; // objects named in a group; the rest is counted
 
 // The first `length` bytes at most, without cutting through a UTF-8 sequence: reports are written as JSON.
 std::string shortened(std::string text, size_t length) {

@@ -37,7 +37,8 @@ class GltfNotes {
         std::vector<std::string> objects;
     };
     std::vector<Group> groups_;
-    std::unordered_map<std::string, size_t> numbers_; // of groups, by finding: files may bring thousands
+    std::unordered_map<std::string, size_t>
+        numbers_; // numbers of the groups, by finding: files may bring thousands
 };
 
 } // namespace lavalight

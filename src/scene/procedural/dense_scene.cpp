@@ -49,7 +49,7 @@ glm::vec2 circle(float turn) {
     }
 }
 
-// Averages of the adjacent faces' normals, weighted by area.
+// Sets each normal to the average of the adjacent faces' normals, weighted by area.
 void addSmoothNormals(Mesh& mesh) {
     mesh.normals.assign(mesh.positions.size(), glm::vec3(0.0f));
     for (const glm::uvec3& t : mesh.triangles) {
@@ -94,7 +94,7 @@ struct Blob {
     uint32_t around, across; // quads along the two parameters
 };
 
-// On a ring of radius 1 (tori) or on the unit sphere, before dents and placing. u and v in [0, 1).
+// A point on a ring of radius 1 (tori) or on the unit sphere, before dents and placing. u and v in [0, 1).
 glm::vec3 blobPoint(const Blob& blob, float u, float v) {
     const glm::vec2 ring = circle(u);
     if (blob.torus) {
@@ -161,8 +161,8 @@ void addBlobs(Scene& scene, uint32_t triangles) {
         owed += triangles * weight(i) / weightSum;
         const bool torus = random(i, 21) < 0.4f;
         const auto across = static_cast<uint32_t>(std::clamp(std::sqrt(owed / 4.0), 4.0, 500.0));
-        const uint32_t band =
-            torus ? across : across - 1; // of quads that are whole: a sphere's caps have half of them
+        // Rows of whole quads: a sphere's caps have half of them.
+        const uint32_t band = torus ? across : across - 1;
         const auto around = static_cast<uint32_t>(std::max(owed / (2.0 * band), 4.0));
         scene.meshes.push_back(makeBlob({i, torus, around, across}));
         owed -= static_cast<double>(scene.meshes.back().triangles.size());

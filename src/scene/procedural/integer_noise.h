@@ -12,7 +12,7 @@ namespace lavalight {
     return x ^ (x >> 16);
 }
 
-// Uniform in [0, 1), a function of its three keys.
+// A number uniform in [0, 1), a function of its three keys.
 [[nodiscard]] inline float random(uint32_t a, uint32_t b, uint32_t c = 0) {
     return static_cast<float>(hash(a + hash(b + hash(c))) >> 8) * 0x1p-24f;
 }

@@ -25,7 +25,7 @@ namespace {
 constexpr std::chrono::milliseconds kTurn(20);
 constexpr std::chrono::seconds kPatience(30);
 
-// Its output is nobody's; `passed`: a descriptor that it gets as number 3.
+// Starts a program whose output nobody reads; `passed`: a descriptor that it gets as number 3.
 pid_t startSilently(const std::vector<std::string>& words, int passed = -1) {
     Spawn spawn;
     spawn.open(STDOUT_FILENO, "/dev/null", O_WRONLY);
@@ -140,7 +140,7 @@ Screenshot Desktop::shoot(const std::string& window) const {
     XImage* const image = ::XGetImage(display, handle, 0, 0, shot.width, shot.height, AllPlanes, ZPixmap);
     for (int y = 0; y < size.height; ++y)
         for (int x = 0; x < size.width; ++x) {
-            const unsigned long pixel = XGetPixel(image, x, y); // of a screen of 24 bits
+            const unsigned long pixel = XGetPixel(image, x, y); // pixel of a screen of 24 bits
             shot.pixels.emplace_back(pixel >> 16 & 255, pixel >> 8 & 255, pixel & 255);
         }
     XDestroyImage(image);

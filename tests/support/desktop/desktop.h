@@ -14,7 +14,7 @@
 
 namespace lavalight::test {
 
-// Opaque pixels, rows from the top.
+// A picture of opaque pixels, rows from the top.
 struct Screenshot {
     uint32_t width = 0;
     uint32_t height = 0;
@@ -22,7 +22,7 @@ struct Screenshot {
     bool operator==(const Screenshot&) const = default;
 };
 
-// Programs that are started while one lives open their windows there.
+// The desktop: programs that are started while it lives open their windows there.
 class Desktop {
   public:
     // Throws std::runtime_error where Xvfb or openbox cannot be started.
@@ -31,13 +31,13 @@ class Desktop {
     Desktop(const Desktop&) = delete;
     Desktop& operator=(const Desktop&) = delete;
 
-    // Of the window whose title begins so. Throws std::runtime_error where there is none within half a
+    // Number of the window whose title begins so. Throws std::runtime_error where there is none within half a
     // minute.
     [[nodiscard]] std::string findWindow(const std::string& title) const;
     [[nodiscard]] std::string titleOf(const std::string& window) const;
-    // Only what is inside the window's frame.
+    // A picture of what is inside the window's frame.
     [[nodiscard]] Screenshot shoot(const std::string& window) const;
-    // Words of xdotool: "key --clearmodifiers Tab", "mousemove 10 20 click 1".
+    // Acts by words of xdotool: "key --clearmodifiers Tab", "mousemove 10 20 click 1".
     void input(const std::string& words) const;
     // Drops a file on a window, as a file manager does.
     void drop(const std::string& path, const std::string& window) const;

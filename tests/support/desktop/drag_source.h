@@ -5,7 +5,7 @@
 
 namespace lavalight::test {
 
-// By the protocol XDND, version 5 (freedesktop.org), with the file's path as a URI. `window`: X's number.
+// Drops the file by the protocol XDND, version 5 (freedesktop.org), its path as a URI. `window`: X's number.
 // Throws std::runtime_error where the window does not take it within ten seconds.
 void dragAndDrop(const std::string& path, unsigned long window);
 

@@ -1,8 +1,8 @@
-// Preloaded, it makes one allocation of a program fail: LAVALIGHT_FAILING_NEW=N names the N-th operator new
-// of at least 4096 bytes that the program's own code calls. Those of its shared libraries are let through,
-// since a driver's are not ours, as are those before main, which nobody can catch, and smaller ones: some are
-// those of header libraries, which do not survive them. LAVALIGHT_NEW_LOG=FILE gets their number at the
-// program's end.
+// A library that, preloaded, makes one allocation of a program fail: LAVALIGHT_FAILING_NEW=N names the N-th
+// operator new of at least 4096 bytes that the program's own code calls. Allocations of shared libraries are
+// let through, since a driver's are not ours, and so are allocations before main, which nobody can catch, and
+// smaller ones: some are made by header libraries, which do not survive a failure. LAVALIGHT_NEW_LOG=FILE
+// gets the number of allocations at the program's end.
 #include <atomic>
 #include <cstdint>
 #include <cstdio>

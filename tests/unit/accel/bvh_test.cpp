@@ -7,8 +7,10 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
-#include "bvh_walk.h"
 #include "scene/procedural/dense_scene.h"
+#include "shared/triangle.h"
+#include "support/bvh_walk.h"
+#include "support/other_trees.h"
 #include "support/random_numbers.h"
 
 namespace lavalight::test {
@@ -66,12 +68,34 @@ TEST(Bvh, FindsTheSameClosestHitsAsBruteForce) {
         uint32_t hits = 0;
         for (int i = 0; i < 4000; ++i) {
             const OracleRay ray{randomPoint(random, 1.5f), random.direction()};
-            const double expected = closestOfAll(triangles, ray);
+            const WalkHit expected = closestOfAll(triangles, ray);
             EXPECT_EQ(closestInTree(bvh, triangles, ray), expected);
-            hits += std::isfinite(expected);
+            hits += std::isfinite(expected.t);
         }
         EXPECT_GT(hits, 100u);
     }
+}
+
+// Each triangle is there three times.
+TEST(Bvh, OfAnyBuilderFindsTheLowestOfTrianglesInOnePlace) {
+    std::vector<Triangle> triangles = scatteredTriangles(200, 1.0f, 3);
+    for (int copy = 0; copy < 2; ++copy)
+        triangles.insert(triangles.end(), triangles.begin(), triangles.begin() + 200);
+    const Bvh trees[] = {buildBvh(triangles), medianBvh(triangles), withLeavesReversed(buildBvh(triangles))};
+    EXPECT_FALSE(sameTree(trees[0], trees[1]));
+    EXPECT_FALSE(sameTree(trees[0], trees[2]));
+    Random random(4);
+    uint32_t hits = 0;
+    for (int i = 0; i < 1000; ++i) {
+        const OracleRay ray{randomPoint(random, 1.5f), random.direction()};
+        for (const Bvh& tree : trees) {
+            const WalkHit hit = closestInTree(tree, triangles, ray);
+            EXPECT_EQ(hit, closestOfAll(triangles, ray));
+            hits += hit.triangle < 200;
+            EXPECT_TRUE(hit.triangle < 200 || std::isinf(hit.t));
+        }
+    }
+    EXPECT_GT(hits, 300u);
 }
 
 TEST(Bvh, FindsWhatEmbreeFindsOnTheDenseScene) {
@@ -86,7 +110,7 @@ TEST(Bvh, FindsWhatEmbreeFindsOnTheDenseScene) {
     uint32_t hits = 0;
     uint32_t differing = 0;
     for (size_t i = 0; i < rays.size(); ++i) {
-        const double t = closestInTree(bvh, triangles, rays[i]);
+        const double t = closestInTree(bvh, triangles, rays[i]).t;
         hits += std::isfinite(t);
         // Embree computes in float: grazed triangles are off by more than the tolerance, edges fall to either
         // side.
@@ -197,7 +221,7 @@ TEST(Bvh, OfOneTriangleFindsIt) {
     const std::vector<Triangle> triangle{{{0, 0, 2}, {1, 0, 2}, {0, 1, 2}}};
     const Bvh bvh = buildBvh(triangle);
     expectSound(bvh, 1);
-    EXPECT_EQ(closestInTree(bvh, triangle, {{0.2f, 0.2f, 0}, {0, 0, 1}}), 2.0);
+    EXPECT_EQ(closestInTree(bvh, triangle, {{0.2f, 0.2f, 0}, {0, 0, 1}}), (WalkHit{2.0, 0}));
     EXPECT_EQ(bvh.bounds.upper, glm::vec3(1, 1, 2));
 }
 
@@ -276,8 +300,8 @@ TEST(Bvh, RefusesCoordinatesThatAreNotFiniteOrTooLarge) {
 }
 
 TEST(Bvh, RefusesWhatDoesNotFit) {
-    EXPECT_NO_THROW(requireBvhFits(kMaxTexels / kLeafTriangleTexels, kMaxNodes));
-    EXPECT_THROW(requireBvhFits(kMaxTexels / kLeafTriangleTexels + 1, 0), Error);
+    EXPECT_NO_THROW(requireBvhFits(kMaxTexels / kTriangleTexels, kMaxNodes));
+    EXPECT_THROW(requireBvhFits(kMaxTexels / kTriangleTexels + 1, 0), Error);
     EXPECT_THROW(requireBvhFits(0, kMaxNodes + 1), Error);
 }
 

@@ -7,14 +7,14 @@
 namespace lavalight::test {
 namespace {
 
-// As in the shader, each operation rounded.
+// The cross product as in the shader, each operation rounded.
 float edgeFunction(const glm::vec2& a, const glm::vec2& b) {
     const volatile float left = a.x * b.y;
     const volatile float right = a.y * b.x;
     return left - right;
 }
 
-// Products of floats are exact in double, and so is their order.
+// The true sign: products of floats are exact in double, and so is their order.
 int exactSign(const glm::vec2& a, const glm::vec2& b) {
     const double left = double{a.x} * b.y;
     const double right = double{a.y} * b.x;

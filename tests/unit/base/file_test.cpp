@@ -91,7 +91,7 @@ TEST(WriteFileAtomically, TheNewNameAppearsOnlyWhenTheWriterIsDone) {
 
 TEST(WriteFileAtomically, ErrorsSayWhyThePathCannotBeWritten) {
     const TemporaryFolder folder;
-    EXPECT_NE(writeError(folder / "none" / "file").find("there is no folder"), std::string::npos);
+    EXPECT_NE(writeError(folder / "none" / "file").find("none does not exist"), std::string::npos);
     EXPECT_NE(writeError(folder.path()).find("it is a directory"), std::string::npos);
     EXPECT_NE(writeError(folder.path() / "").find("no file name given"), std::string::npos);
     EXPECT_NE(writeError("/proc/file").find("cannot write /proc/file: "), std::string::npos);

@@ -8,7 +8,7 @@
 namespace lavalight {
 namespace {
 
-// Of matplotlib's table of 256 colours: the first, the 65th, the 129th, the last.
+// The first, the 65th, the 129th and the last of matplotlib's table of 256 colours.
 TEST(HeatColour, IsMagma) {
     const auto expectNear = [](float share, uint32_t r, uint32_t g, uint32_t b) {
         const uint32_t colour = heatColour(share);

@@ -1,9 +1,10 @@
-// What a scene is said to have: a feature that it has and that is not reported would be missing from its
-// image.
+// What a scene is said to have: a feature that it has and that is not reported
+// would be missing from its image.
 #include <gtest/gtest.h>
 
 #include "device_scene/scene_features.h"
 #include "session/builtin.h"
+#include "shared/frame.h"
 #include "shared/scene.h"
 
 namespace lavalight::test {
@@ -16,15 +17,21 @@ Material lambert() {
     return material;
 }
 
-uint32_t featuresOf(const Scene& scene) {
+SceneFeatures featuresOf(const Scene& scene) {
     return sceneFeatures(scene, collectLights(scene, scene.environment, LightSelection::power));
 }
 
-uint32_t featuresOf(const Material& material) {
+SceneFeatures featuresOf(const Material& material) {
     Scene scene;
     scene.materials = {lambert(), material};
     scene.meshes.emplace_back().material = 1;
     return featuresOf(scene);
+}
+
+TEST(SceneFeatures, ReachKernelsAsTwoWords) {
+    const auto words = featureConstants(kFeatureGlass | kFeatureLights | kFeatureLens | kFeatureSolids);
+    EXPECT_EQ(words[0], (gpu::SpecialisationConstant{CONSTANT_FEATURES, 1u << 1 | 1u << 22}));
+    EXPECT_EQ(words[1], (gpu::SpecialisationConstant{CONSTANT_MORE_FEATURES, 1u << 0 | 1u << 3}));
 }
 
 TEST(SceneFeatures, LambertSurfacesHaveNone) {
@@ -146,8 +153,8 @@ TEST(SceneFeatures, SolidsMayOverlapWhereTheirBoxesDo) {
         scene.meshes.push_back(mesh);
     };
     addBox(1, 0.0f, 1.0f);
-    addBox(1, 1.0f, 2.0f); // touches it
-    addBox(0, 0.5f, 1.5f); // is none
+    addBox(1, 1.0f, 2.0f); // a solid that touches it
+    addBox(0, 0.5f, 1.5f); // no solid
     EXPECT_FALSE(solidsMayOverlap(scene));
     addBox(1, 1.75f, 3.0f);
     EXPECT_TRUE(solidsMayOverlap(scene));

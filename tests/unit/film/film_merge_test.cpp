@@ -74,6 +74,9 @@ TEST(FilmMerge, WhatDiffersIsNamedWithBothValues) {
     EXPECT_NE(refusalWith("content:textures", "ffff0000ffff")
                   .find("textures (content 01234567 in a.exr, content ffff0000 in b.exr)"),
               std::string::npos);
+    EXPECT_NE(
+        refusalWith("content:accelerator", "another").find("accelerator (none in a.exr, another in b.exr)"),
+        std::string::npos);
 }
 
 // Files may be renamed and moved; their content has its own keys.

@@ -70,7 +70,7 @@ TEST_F(Assets, GeneratedMalformedFilesLoadOrFailAsTheirManifestSays) {
 }
 
 TEST_F(Assets, RealScenesLoadOrNameTheFeatureThatTheyRequire) {
-    // Against the specification, or for a reader of glTF 2.1, which they exist to test.
+    // These are against the specification, or for a reader of glTF 2.1, which they exist to test.
     const std::map<std::string, std::string> refused = {
         {"cube_att.gltf", "is a child of both"},
         {"Compatibility_04.gltf", "it needs a reader of glTF 2.1"},

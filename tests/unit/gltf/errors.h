@@ -21,7 +21,7 @@ inline void expectError(const GltfBuilder& builder, const std::string& text) {
     expectError(importError(builder), "test.glb", text);
 }
 
-// Of a file on disk.
+// What importing a file on disk says when it fails; empty if it succeeds.
 inline std::string fileError(const std::filesystem::path& path, const ImportOptions& options = {}) {
     try {
         static_cast<void>(importGltf(path, options));

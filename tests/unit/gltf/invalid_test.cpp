@@ -77,8 +77,8 @@ TEST_F(InvalidFiles, EveryFileIsRefusedInOneLineOrItsSceneIsSound) {
     EXPECT_GT(loaded, 300);
 }
 
-// What Khronos' validator finds no error in. Of what is refused, the message must name an unsupported feature
-// or data that is not there.
+// Files in which Khronos' validator finds no error. Where one is refused, the message must name an
+// unsupported feature or data that is not there.
 TEST_F(InvalidFiles, FilesThatTheValidatorCallsValidLoadOrNameWhatIsMissing) {
     const std::array<std::string, 3> reasons = {"it requires the extension",
                                                 "is needed but has neither a uri nor a BIN chunk",

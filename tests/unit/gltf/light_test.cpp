@@ -180,7 +180,7 @@ TEST(GltfLight, ExtensionWithoutLightsIsTolerated) {
     }
 }
 
-// The same file with one value changed.
+// Expects that error of a sound file with one value changed.
 void expectErrorAfter(const char* pointer, const Json& value, const std::string& text) {
     GltfBuilder builder = fileWith({{"type", "spot"}, {"spot", Json::object()}});
     builder.json[Json::json_pointer(pointer)] = value;

@@ -9,7 +9,7 @@ namespace {
 TEST(GltfNotes, LongNamesAreCutBetweenCharacters) {
     const std::string cut = describe("mesh", 3, "x" + std::string(31, 'y') + std::string(100, 'z'));
     EXPECT_EQ(cut, "mesh 3 \"x" + std::string(31, 'y') + std::string(32, 'z') + "...\"");
-    std::string euros; // of three bytes each: byte 64 lies within the 22nd
+    std::string euros; // characters of three bytes: byte 64 lies within the 22nd
     for (int i = 0; i < 40; ++i)
         euros += "\xe2\x82\xac";
     EXPECT_EQ(describe("mesh", 0, euros), "mesh 0 \"" + euros.substr(0, 63) + "...\"");

@@ -19,7 +19,7 @@ constexpr const char* kPng16 =
     "data:image/"
     "png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABEAIAAADA54+dAAAAD0lEQVR42mMQMmlg+P8fAAZ0AsXcUeSkAAAAAElFTkSu"
     "QmCC";
-// Its header claims 16384 x 16384 texels.
+// A file whose header claims 16384 x 16384 texels.
 constexpr const char* kBomb =
     "data:image/"
     "png;base64,iVBORw0KGgoAAAANSUhEUgAAQAAAAEAACAYAAACpyBCEAAAAC0lEQVR4nGNgQAUAABAAATm9j2UAAAAASUVORK5CYII=";
@@ -120,7 +120,7 @@ TEST(GltfTexture, PictureOfManyMaterialsIsDecodedOnce) {
     EXPECT_TRUE(scene.materials.at(1).texture(TextureSlot::emission)->isSrgb);
 }
 
-// Also shows that the size is checked before memory is taken.
+// kBomb also shows that the size is checked before memory is taken.
 TEST(GltfTexture, UnreadablePicturesLeaveThePlainFactorsAndAWarning) {
     const std::vector<std::pair<std::string, const char*>> bad = {
         {"missing.png", "an embedded scene cannot refer to files"},

@@ -78,7 +78,7 @@ TEST_F(HdrTest, WhatIsNoWholeMapIsRefused) {
     EXPECT_EQ(read(good).height, 2u);
     for (size_t length = 0; length < good.size(); ++length)
         EXPECT_THROW((void)read(good.substr(0, length)), Error) << length << " bytes";
-    expectRefusal("\x89PNG\n", "does not begin");
+    expectRefusal("\x89PNG\n", "not a Radiance HDR file");
     expectRefusal(kHead + "\n-Y 0 +X 4\n", "0 pixels");
     expectRefusal(kHead + "\n-Y 2000000000 +X 2000000000\n", "the limit is 16384");
     expectRefusal(kHead + "\n+X 1 -Y 1\n" + texel(1, 1, 1, 1), "left to right");
@@ -91,7 +91,7 @@ TEST_F(HdrTest, WhatIsNoWholeMapIsRefused) {
     expectRefusal(kHead + "\n-Y 1 +X 8\n" + std::string{2, 2, 0, 9, 8, 1} + rest, "claims 9 pixels of 8");
 }
 
-// Before 1.6 GB are taken, and before 3.2 GB are decoded that no environment can use.
+// The refusal comes before 1.6 GB are taken, and before 3.2 GB are decoded that no environment can use.
 TEST_F(HdrTest, PixelsThatCannotBeInTheFileAndImagesBeyondTheLimitAreRefusedByTheHeader) {
     expectRefusal(kHead + "\n-Y 8192 +X 16384\n" + std::string(8192 * 12 - 1, '\1'),
                   "ends within its pixels");

@@ -54,6 +54,15 @@ TEST_F(ShaderOverlayTest, EmbeddedSourcesAreThoseOfTheTree) {
     EXPECT_FALSE(embeddedShader("roulette.glsl").has_value());
 }
 
+// Kernels include it by a path that is none of a file.
+TEST_F(ShaderOverlayTest, TheAcceleratorIsPartOfTheKernelsThatTraceRays) {
+    const std::string path = "scene/bvh8/accelerator.glsl";
+    write(path, replaced(ours(path), "slabRay(origin, direction)", "slabRay(origin, 2.0 * direction)"));
+    EXPECT_TRUE(changes("trace_any"));
+    EXPECT_FALSE(changes("accumulate"));
+    EXPECT_EQ(overlay().unused(), Paths{});
+}
+
 TEST_F(ShaderOverlayTest, CopiesChangeNothing) {
     write("lib/sampling/roulette.glsl", ours("lib/sampling/roulette.glsl"));
     write("shared/frame.h", ours("shared/frame.h"));

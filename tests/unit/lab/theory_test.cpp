@@ -149,7 +149,7 @@ TEST(LabTheory, EightRaysKeepTheirPowerUnderRoulette) {
     EXPECT_DOUBLE_EQ(rouletteRays(8, 16.0, 0.5).variance, second - mean * mean);
 }
 
-// Unpolarised, by the angles of both sides: Fresnel's equations as sines and tangents.
+// Unpolarised reflectance by the angles of both sides: Fresnel's equations as sines and tangents.
 double fresnelByAngles(double cosTheta, double eta) {
     const double incident = std::acos(cosTheta);
     if (std::sin(incident) >= eta)

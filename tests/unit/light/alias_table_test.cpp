@@ -30,7 +30,7 @@ std::vector<double> spreadWeights(uint32_t count, uint32_t seed) {
     return weights;
 }
 
-// In double from the table's own bins: the exact probability of each pick.
+// The exact probability of each pick, in double, from the table's own bins.
 std::vector<double> exactPmf(const std::vector<AliasEntry>& table) {
     std::vector<double> pmf(table.size(), 0.0);
     for (size_t i = 0; i < table.size(); ++i) {

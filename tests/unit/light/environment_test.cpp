@@ -15,7 +15,7 @@ namespace {
 
 using std::numbers::pi;
 
-// Over all cells, of the density's mean times the solid angle.
+// Sum over all cells of the density's mean times the solid angle.
 double totalProbability(const Image& map, const EnvironmentDistribution& distribution) {
     double sum = 0.0;
     for (uint32_t y = 0; y <= map.height; ++y)
@@ -60,7 +60,7 @@ TEST(EnvironmentDistribution, CellsAroundALoneTexelAndNoOthersArePicked) {
                 << x << ", " << y;
 }
 
-// 1e12 times as dark: beyond the resolution of the random numbers.
+// A sky 1e12 times as dark as the sun is beyond the resolution of the random numbers.
 TEST(EnvironmentDistribution, TheFaintestSkyBesideASunKeepsADensity) {
     for (const float scale : makeEnvironmentDistribution(sunMap(256, 128, {3, 70}, 1e9f, 1e-3f)).scales)
         ASSERT_GT(scale, 0.0f);
@@ -86,7 +86,7 @@ TEST(EnvironmentDistribution, PowerOfAMapIsThatOfItsMeanTimesTheFactor) {
     EXPECT_NEAR(lights.powers[0] / environmentPower(glm::vec3(0.5f, 1.0f, 1.5f), scene.bounds), 1.0, 1e-6);
 }
 
-// Beside a lamp of known power; the tree's column is the last.
+// A map beside a lamp of known power; the tree's column is the last.
 TEST(EnvironmentDistribution, TheTreeSharesWithAMapByPowerBetweenAQuarterAndThreeQuarters) {
     Scene scene;
     scene.bounds = {glm::vec3(-1.0f), glm::vec3(1.0f)};

@@ -179,7 +179,7 @@ TEST(Lights, WithoutPowerAreLeftOut) {
         const Scene scene =
             sceneOf({punctual(PunctualKind::point, glm::vec3(0.0f)), spot(0.0f, 0.0f), spot(0.1f, 0.2f)});
         const Lights lights = collectLights(scene, glm::vec3(0.0f), selection);
-        EXPECT_EQ(lights.punctuals, (std::vector<uint32_t>{2})); // its number in the scene
+        EXPECT_EQ(lights.punctuals, (std::vector<uint32_t>{2})); // number of the light in the scene
         EXPECT_EQ(lights.environment, std::nullopt);
         EXPECT_EQ(lights.powers.size(), 2u);
         EXPECT_EQ(lights.table.size(), 2u);

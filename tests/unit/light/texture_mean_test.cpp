@@ -25,7 +25,7 @@ glm::dvec3 at(const Picture& picture, const Texture& t, const glm::dvec2& uv) {
     return sum;
 }
 
-// At the middles of 400 x 400 parts of the triangle.
+// Mean at the middles of 400 x 400 parts of the triangle.
 glm::dvec3 meanOfPoints(const Picture& picture, const Texture& t, const std::array<glm::vec2, 3>& uvs) {
     constexpr int kParts = 400;
     glm::dvec3 sum(0.0);

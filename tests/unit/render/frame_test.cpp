@@ -22,8 +22,8 @@ Camera tiltedCamera() {
 
 RenderSettings sized(uint32_t width, uint32_t height) {
     RenderSettings settings;
-    settings.width = width;
-    settings.height = height;
+    settings.image.width = width;
+    settings.image.height = height;
     return settings;
 }
 
@@ -34,29 +34,29 @@ void expectNear(const glm::vec3& a, const glm::vec3& b) {
 TEST(ResolveSize, OpenWidthFollowsTheCamerasAspectRatio) {
     Camera camera;
     camera.aspect = 1.5f;
-    EXPECT_EQ(resolveSize(sized(0, 512), camera).width, 768u);
+    EXPECT_EQ(resolveSize(sized(0, 512), camera).image.width, 768u);
     camera.aspect = 0.333f;
-    EXPECT_EQ(resolveSize(sized(0, 100), camera).width, 33u);
+    EXPECT_EQ(resolveSize(sized(0, 100), camera).image.width, 33u);
 }
 
 TEST(ResolveSize, WithoutAnAspectRatioTheImageIsSixteenToNine) {
-    EXPECT_EQ(resolveSize(sized(0, 90), Camera()).width, 160u);
+    EXPECT_EQ(resolveSize(sized(0, 90), Camera()).image.width, 160u);
 }
 
 TEST(ResolveSize, GivenSizeIsKept) {
     Camera camera;
     camera.aspect = 3.0f;
     const RenderSettings settings = resolveSize(sized(20, 30), camera);
-    EXPECT_EQ(settings.width, 20u);
-    EXPECT_EQ(settings.height, 30u);
+    EXPECT_EQ(settings.image.width, 20u);
+    EXPECT_EQ(settings.image.height, 30u);
 }
 
 TEST(ResolveSize, ExtremeAspectRatiosStayWithinTheLimits) {
     Camera camera;
     camera.aspect = 1e9f;
-    EXPECT_EQ(resolveSize(sized(0, 512), camera).width, kMaxImageSide);
+    EXPECT_EQ(resolveSize(sized(0, 512), camera).image.width, kMaxImageSide);
     camera.aspect = 1e-9f;
-    EXPECT_EQ(resolveSize(sized(0, 512), camera).width, 1u);
+    EXPECT_EQ(resolveSize(sized(0, 512), camera).image.width, 1u);
 }
 
 TEST(Frame, PerspectiveKeepsTheVerticalFieldOfView) {
@@ -89,7 +89,7 @@ TEST(Frame, SettingsReachTheKernels) {
     settings.estimator.seed = 11;
     settings.estimator.maxBounces = 12;
     settings.estimator.rouletteStart = 13;
-    settings.waveSize = 1400;
+    settings.work.waveSize = 1400;
     const FrameParameters frame = makeFrame(Scene(), Camera(), settings);
     EXPECT_EQ(frame.seed, 11u);
     EXPECT_EQ(frame.maxBounces, 12u);

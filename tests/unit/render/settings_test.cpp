@@ -14,8 +14,8 @@ namespace {
 
 RenderSettings goodSettings() {
     RenderSettings settings;
-    settings.width = 640;
-    settings.height = 480;
+    settings.image.width = 640;
+    settings.image.height = 480;
     return settings;
 }
 
@@ -41,33 +41,34 @@ void expectRefusal(const std::string& option, const Change& change) {
 TEST(Settings, DefaultsAndLimitsAreAccepted) {
     EXPECT_EQ(complaint(goodSettings()), "");
     RenderSettings settings = goodSettings();
-    settings.width = settings.height = kMaxImageSide;
+    settings.image.width = settings.image.height = kMaxImageSide;
     settings.estimator.maxBounces = kMaxBounceLimit;
-    settings.samples = settings.estimator.rouletteStart = 0x7fffffff;
+    settings.stop.samples = settings.estimator.rouletteStart = 0x7fffffff;
     EXPECT_EQ(complaint(settings), "");
-    settings.width = settings.height = settings.samples = settings.estimator.rouletteStart = 1;
+    settings.image.width = settings.image.height = settings.stop.samples = settings.estimator.rouletteStart =
+        1;
     settings.estimator.maxBounces = 0;
-    settings.waveSize = 64;
+    settings.work.waveSize = 64;
     EXPECT_EQ(complaint(settings), "");
 }
 
 TEST(Settings, WhatIsOutOfRangeIsRefusedByItsOptionsName) {
-    expectRefusal("--size", [](RenderSettings& s) { s.width = 0; });
-    expectRefusal("--size", [](RenderSettings& s) { s.height = 0; });
-    expectRefusal("--size", [](RenderSettings& s) { s.width = kMaxImageSide + 1; });
-    expectRefusal("--size", [](RenderSettings& s) { s.height = 100'000; });
-    expectRefusal("--spp", [](RenderSettings& s) { s.samples = 0; });
-    expectRefusal("--spp", [](RenderSettings& s) { s.samples = 0x80000000u; });
-    expectRefusal("--wave-size", [](RenderSettings& s) { s.waveSize = 63; });
-    expectRefusal("--wave-size", [](RenderSettings& s) { s.waveSize = 4'000'001; });
+    expectRefusal("--size", [](RenderSettings& s) { s.image.width = 0; });
+    expectRefusal("--size", [](RenderSettings& s) { s.image.height = 0; });
+    expectRefusal("--size", [](RenderSettings& s) { s.image.width = kMaxImageSide + 1; });
+    expectRefusal("--size", [](RenderSettings& s) { s.image.height = 100'000; });
+    expectRefusal("--spp", [](RenderSettings& s) { s.stop.samples = 0; });
+    expectRefusal("--spp", [](RenderSettings& s) { s.stop.samples = 0x80000000u; });
+    expectRefusal("--wave-size", [](RenderSettings& s) { s.work.waveSize = 63; });
+    expectRefusal("--wave-size", [](RenderSettings& s) { s.work.waveSize = 4'000'001; });
     expectRefusal("--max-bounces", [](RenderSettings& s) { s.estimator.maxBounces = kMaxBounceLimit + 1; });
     expectRefusal("--roulette-start", [](RenderSettings& s) { s.estimator.rouletteStart = 0; });
     expectRefusal("--roulette-probability",
                   [](RenderSettings& s) { s.estimator.rouletteProbability = 0.0f; });
     expectRefusal("--roulette-probability",
                   [](RenderSettings& s) { s.estimator.rouletteProbability = 1.01f; });
-    expectRefusal("--time", [](RenderSettings& s) { s.seconds = -1.0; });
-    expectRefusal("--target-error", [](RenderSettings& s) { s.targetError = -0.1; });
+    expectRefusal("--time", [](RenderSettings& s) { s.stop.seconds = -1.0; });
+    expectRefusal("--target-error", [](RenderSettings& s) { s.stop.targetError = -0.1; });
 }
 
 TEST(Settings, MisSurvivalNeedsARouletteThatDoesNotKnowTheDirection) {
@@ -117,15 +118,15 @@ std::map<std::string, std::string> described(const RenderSettings& settings) {
 
 TEST(Settings, DescriptionNamesEveryOptionWithItsValue) {
     RenderSettings settings = goodSettings();
-    settings.samples = 100;
-    settings.firstSample = 28;
+    settings.stop.samples = 100;
+    settings.image.firstSample = 28;
     settings.estimator.seed = 5;
     settings.estimator.nextEventEstimation = false;
     settings.estimator.mis = Mis::balance;
     settings.estimator.roulette = Roulette::off;
     settings.estimator.rouletteStart = 9;
     settings.estimator.maxBounces = 12;
-    settings.environment = {0.5f, 1.0f, 2.25f};
+    settings.lighting.constant = {0.5f, 1.0f, 2.25f};
     const auto options = described(settings);
     EXPECT_EQ(options.at("size"), "640x480");
     EXPECT_EQ(options.at("spp"), "100");
@@ -141,9 +142,9 @@ TEST(Settings, DescriptionNamesEveryOptionWithItsValue) {
 
 TEST(Settings, DescriptionNamesTheMapAndHowItIsUsed) {
     RenderSettings settings = goodSettings();
-    settings.environmentFile = "garden.hdr";
-    settings.environmentRotation = 12.5f;
-    settings.environmentIntensity = 3.0f;
+    settings.lighting.mapFile = "garden.hdr";
+    settings.lighting.rotation = 12.5f;
+    settings.lighting.intensity = 3.0f;
     const auto options = described(settings);
     EXPECT_EQ(options.at("env"), "garden.hdr");
     EXPECT_EQ(options.at("env-rotation"), "12.5");
@@ -157,8 +158,8 @@ TEST(Settings, DescriptionOfTheScenesOwnEnvironmentNamesNone) {
 // What does not decide the bits must not make two headers differ.
 TEST(Settings, DescriptionLeavesOutHowTheWorkIsCutUp) {
     RenderSettings settings = goodSettings();
-    settings.waveSize = 4096;
-    settings.bandRows = 3;
+    settings.work.waveSize = 4096;
+    settings.work.bandRows = 3;
     EXPECT_EQ(described(settings), described(goodSettings()));
 }
 

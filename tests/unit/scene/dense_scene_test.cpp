@@ -13,7 +13,7 @@ TEST(DenseScene, HasTheTriangleCountWithinOnePerCent) {
         EXPECT_NEAR(static_cast<double>(makeDenseScene(count).triangleCount()), count, 0.01 * count);
 }
 
-// FNV-1a over every position.
+// Hash of every position: FNV-1a.
 TEST(DenseScene, HasTheSameBitsEverywhere) {
 #if !defined(__x86_64__) || defined(__FMA__)
     GTEST_SKIP() << "this compiler may contract products and sums, which changes last bits";

@@ -56,7 +56,7 @@ TEST(Ledger, NamesBiasedSettings) {
     RenderSettings settings;
     settings.estimator.clampIndirect = 7.5f;
     settings.estimator.nextEventEstimation = false;
-    settings.targetError = 0.125;
+    settings.stop.targetError = 0.125;
     const std::string text = ledgerText(makeLedger(scene, settings, FilmTallies(), StopReason::targetError));
     EXPECT_NE(text.find("clamp-indirect: indirect light was limited to 7.5"), std::string::npos) << text;
     EXPECT_NE(text.find("unreachable-lights: --nee off cannot find 2"), std::string::npos) << text;
@@ -68,9 +68,9 @@ RenderReport exampleReport() {
     RenderReport report;
     report.scene = "some \"scene\".gltf";
     report.camera = "cam\xff"; // no valid UTF-8
-    report.settings.width = 20;
-    report.settings.height = 10;
-    report.settings.samples = 6;
+    report.settings.image.width = 20;
+    report.settings.image.height = 10;
+    report.settings.stop.samples = 6;
     report.device.name = "device";
     report.device.driver = "driver 1.2";
     report.device.type = "CPU";

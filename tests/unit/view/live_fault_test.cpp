@@ -20,16 +20,16 @@ namespace {
 
 constexpr int kOutOfDeviceMemory = -2;
 
-LiveRequest smallRequest(Kernels kernels) {
+LiveRequest smallRequest(Schedule schedule) {
     LiveRequest request;
     request.scene = std::make_shared<const Scene>(loadScene("cornell-box"));
     request.camera = request.scene->cameras.front();
-    request.settings.width = 8;
-    request.settings.height = 6;
-    request.settings.samples = 2;
-    request.settings.waveSize = 4096;
+    request.settings.image.width = 8;
+    request.settings.image.height = 6;
+    request.settings.stop.samples = 2;
+    request.settings.work.waveSize = 4096;
     request.settings.estimator.maxBounces = 4;
-    request.settings.kernels = kernels;
+    request.settings.work.schedule = schedule;
     return request;
 }
 
@@ -82,8 +82,8 @@ class LiveFault : public testing::Test {
 };
 
 TEST_F(LiveFault, AnyCallOfAMoveMayFail) {
-    for (const Kernels kernels : {Kernels::fused, Kernels::wavefront}) {
-        const LiveRequest shown = smallRequest(kernels);
+    for (const Schedule schedule : {Schedule::fused, Schedule::wavefront}) {
+        const LiveRequest shown = smallRequest(schedule);
         LiveRequest moved = shown;
         moved.camera.position.x += 0.1f;
         expectEveryCallMayFail(shown, moved);
@@ -91,10 +91,10 @@ TEST_F(LiveFault, AnyCallOfAMoveMayFail) {
 }
 
 TEST_F(LiveFault, AnyCallOfAChangeOfSizeMayFail) {
-    const LiveRequest shown = smallRequest(Kernels::fused);
+    const LiveRequest shown = smallRequest(Schedule::fused);
     LiveRequest larger = shown;
-    larger.settings.width += 3;
-    larger.settings.height += 2;
+    larger.settings.image.width += 3;
+    larger.settings.image.height += 2;
     expectEveryCallMayFail(shown, larger);
 }
 
@@ -102,7 +102,7 @@ TEST_F(LiveFault, AnyCallOfAChangeOfSizeMayFail) {
 class LiveSettingsFault : public LiveFault, public testing::WithParamInterface<long> {};
 
 TEST_P(LiveSettingsFault, AnyCallMayFail) {
-    LiveRequest shown = smallRequest(Kernels::fused);
+    LiveRequest shown = smallRequest(Schedule::fused);
     shown.settings.estimator.nextEventEstimation = false;
     LiveRequest other = shown;
     other.settings.estimator.hemisphere = Hemisphere::uniform;
@@ -119,7 +119,7 @@ TEST_F(LiveFault, AnyCallOfAReloadOfShadersMayFail) {
     ASSERT_NE(accumulate.find(radiance), std::string::npos);
     accumulate.insert(accumulate.find(radiance) + radiance.size(), "0.5 * ");
     std::ofstream(folder / "kernels/accumulate.comp") << accumulate;
-    const LiveRequest shown = smallRequest(Kernels::fused);
+    const LiveRequest shown = smallRequest(Schedule::fused);
     LiveRequest darker = shown;
     darker.shaders = std::make_shared<ShaderOverlay>(folder.path());
     expectEveryCallMayFail(shown, darker);

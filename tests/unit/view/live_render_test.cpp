@@ -28,10 +28,10 @@ LiveRequest requestFor(const std::string& scene, uint32_t samples = 8) {
     LiveRequest request;
     request.scene = std::make_shared<const Scene>(loadScene(scene));
     request.camera = request.scene->cameras.front();
-    request.settings.width = 40;
-    request.settings.height = 30;
-    request.settings.samples = samples;
-    request.settings.kernels = Kernels::fused;
+    request.settings.image.width = 40;
+    request.settings.image.height = 30;
+    request.settings.stop.samples = samples;
+    request.settings.work.schedule = Schedule::fused;
     return request;
 }
 
@@ -115,8 +115,8 @@ TEST_F(LiveRenderTest, PathsAreOfTheSceneThatWasRendered) {
 // A kernel that follows paths serves until settings or shaders change.
 TEST_F(LiveRenderTest, PathsAreOfTheEstimatorAndShadersThatAreShown) {
     const TemporaryFolder folder;
-    std::filesystem::create_directories(folder / "lib/bsdf");
-    std::string diffuse = readFile(LAVALIGHT_SOURCE_DIR "/shaders/lib/bsdf/diffuse.glsl");
+    std::filesystem::create_directory(folder / "lib");
+    std::string diffuse = readFile(LAVALIGHT_SOURCE_DIR "/shaders/lib/bsdf_diffuse.glsl");
     diffuse.insert(diffuse.find("kInvPi * max"), "0.9 * ");
     std::ofstream(folder / "lib/bsdf/diffuse.glsl") << diffuse;
     const LiveRequest plain = requestFor("cornell-box");
@@ -141,8 +141,8 @@ TEST_F(LiveRenderTest, APixelBeyondTheImageIsTheNearestOne) {
     LiveRequest request = requestFor("cornell-box");
     render_.show(request);
     (void)waitForImage();
-    request.settings.width = 20;
-    request.settings.height = 15;
+    request.settings.image.width = 20;
+    request.settings.image.height = 15;
     render_.show(request);
     EXPECT_EQ(inspect({4000, 3000}).pixel, glm::uvec2(19, 14));
 }
@@ -166,7 +166,7 @@ TEST_F(LiveRenderTest, OrdersOfEveryKindInAnyOrderEndInTheImageOfTheLastOne) {
     for (int i = 0; i < 25; ++i) {
         LiveRequest request = scenes[random() % 3];
         request.isMoving = random() % 2 == 0;
-        request.settings.width += static_cast<uint32_t>(random() % 2);
+        request.settings.image.width += static_cast<uint32_t>(random() % 2);
         request.camera.position.x += 0.01f * static_cast<float>(random() % 3);
         if (random() % 3 == 0)
             request.other = EstimatorSettings{};
@@ -202,7 +202,7 @@ TEST_F(LiveRenderTest, WhatCannotBeRenderedIsToldAndTheImageBeforeGoesOn) {
     render_.show(before);
     (void)waitForImage();
     const TemporaryFolder folder;
-    std::filesystem::create_directories(folder / "lib/sampling");
+    std::filesystem::create_directory(folder / "lib");
     std::ofstream(folder / "lib/sampling/roulette.glsl") << "this is no shader";
     LiveRequest broken = requestFor("veach-mis");
     broken.shaders = std::make_shared<ShaderOverlay>(folder.path());

@@ -29,17 +29,17 @@ TEST(RestartsImage, WhatIsOnlyShownOtherwiseDoesNot) {
 
 TEST(RestartsImage, WhateverChangesTheMeanOrTheNoiseDoes) {
     EXPECT_EQ(after([](LiveRequest& r) { r.camera.position.x = 1.0f; }), Restart::image);
-    EXPECT_EQ(after([](LiveRequest& r) { r.settings.width = 7; }), Restart::image);
+    EXPECT_EQ(after([](LiveRequest& r) { r.settings.image.width = 7; }), Restart::image);
     EXPECT_EQ(after([](LiveRequest& r) { r.settings.estimator.roulette = Roulette::off; }), Restart::image);
     EXPECT_EQ(after([](LiveRequest& r) { r.settings.estimator.seed = 3; }), Restart::image);
-    EXPECT_EQ(after([](LiveRequest& r) { r.settings.environmentRotation = 3.0f; }), Restart::image);
+    EXPECT_EQ(after([](LiveRequest& r) { r.settings.lighting.rotation = 3.0f; }), Restart::image);
     EXPECT_EQ(after([](LiveRequest& r) { r.isMoving = true; }), Restart::image);
-    EXPECT_EQ(after([](LiveRequest& r) { r.settings.kernels = Kernels::wavefront; }), Restart::image);
+    EXPECT_EQ(after([](LiveRequest& r) { r.settings.work.schedule = Schedule::wavefront; }), Restart::image);
 }
 
 TEST(RestartsImage, OtherLightsAndOtherScenesGoToTheDeviceAnew) {
     EXPECT_EQ(after([](LiveRequest& r) { r.scene = std::make_shared<const Scene>(); }), Restart::scene);
-    EXPECT_EQ(after([](LiveRequest& r) { r.settings.environmentIntensity = 2.0f; }), Restart::scene);
+    EXPECT_EQ(after([](LiveRequest& r) { r.settings.lighting.intensity = 2.0f; }), Restart::scene);
     EXPECT_EQ(after([](LiveRequest& r) { r.settings.estimator.lightSelection = LightSelection::uniform; }),
               Restart::scene);
     EXPECT_EQ(after([](LiveRequest& r) { r.settings.estimator.mis = Mis::off; }), Restart::scene);

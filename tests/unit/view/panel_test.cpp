@@ -190,9 +190,9 @@ TEST_F(ScenePanelTest, LensIsOpenedAndFocused) {
 
 TEST_F(ScenePanelTest, EnvironmentIsTurnedAndDimmedWithoutReadingTheScene) {
     drag("Lavalight", "map's rotation", 20.0f);
-    EXPECT_NE(view_.settings.environmentRotation, 0.0f);
+    EXPECT_NE(view_.settings.lighting.rotation, 0.0f);
     drag("Lavalight", "environment", 50.0f);
-    EXPECT_GT(view_.settings.environmentIntensity, 1.0f);
+    EXPECT_GT(view_.settings.lighting.intensity, 1.0f);
     EXPECT_FALSE(wantsScene_);
 }
 

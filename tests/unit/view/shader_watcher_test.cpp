@@ -22,7 +22,7 @@ class ShaderWatcherTest : public testing::Test {
         std::filesystem::create_directory(folder_ / "lib");
         save(ours_);
         watcher_ = std::make_unique<ShaderWatcher>(
-            folder_.path().string(), std::make_shared<ShaderOverlay>(folder_.path()), Kernels::fused, [] {});
+            folder_.path().string(), std::make_shared<ShaderOverlay>(folder_.path()), Schedule::fused, [] {});
     }
     void save(const std::string& text) const {
         std::ofstream(folder_ / "lib/sampling/roulette.glsl") << text;
@@ -70,7 +70,7 @@ TEST_F(ShaderWatcherTest, TellsWhatDoesNotCompileAndGoesOnFromTheLastThatDid) {
 }
 
 TEST_F(ShaderWatcherTest, ComparesTheKernelsInUse) {
-    watcher_->use(Kernels::wavefront);
+    watcher_->use(Schedule::wavefront);
     save(capped("0.5"));
     EXPECT_EQ(next().kernels, std::vector<std::string>{"shade"});
 }
@@ -89,7 +89,7 @@ TEST_F(ShaderWatcherTest, JoinsChangesThatNobodyTookYet) {
 
 TEST(ShaderWatcher, NeedsItsFolder) {
     const test::TemporaryFolder folder;
-    EXPECT_THROW(ShaderWatcher((folder / "none").string(), nullptr, Kernels::fused, [] {}), Error);
+    EXPECT_THROW(ShaderWatcher((folder / "none").string(), nullptr, Schedule::fused, [] {}), Error);
 }
 
 } // namespace

@@ -1,24 +1,19 @@
-// Rays against the scene: the closest hit, or whether there is any.
-#ifndef LAVALIGHT_TRAVERSE_GLSL
-#define LAVALIGHT_TRAVERSE_GLSL
+// The accelerator "bvh8": a tree of eight quantised boxes a node (shared/bvh.h), and a stack for each ray.
+// scene/intersect.glsl says what its two functions answer.
+#ifndef LAVALIGHT_BVH8_ACCELERATOR_GLSL
+#define LAVALIGHT_BVH8_ACCELERATOR_GLSL
 
 #include "lib/math/constants.glsl"
 #include "lib/math/ray_box.glsl"
 #include "lib/math/ray_triangle.glsl"
-#include "scene/alpha_question.glsl"
-#include "scene/leaf_triangle.glsl"
-#include "scene/traversal_stack.glsl"
+#include "scene/bvh8/alpha_question.glsl"
+#include "scene/bvh8/traversal_stack.glsl"
+#include "scene/intersect.glsl"
+#include "scene/triangle_record.glsl"
 #include "shared/bindings.h"
 #include "shared/bvh.h"
-#include "shared/frame.h"
-#include "shared/trace.h"
-#include "shared/wavefront.h"
 
 layout(set = 0, binding = BINDING_BVH_NODES) uniform utextureBuffer bvhNodes; // kNodeTexels a node
-
-// What this invocation visited, for kernels that ask.
-layout(constant_id = CONSTANT_COUNT_VISITS) const bool kCountVisits = false;
-VisitCounts visited = VisitCounts(0u, 0u);
 
 BvhNode loadNode(uint index) {
     int texel = int(index * kNodeTexels);
@@ -39,38 +34,24 @@ uint childReference(BvhChildren children, uint slot) {
                                 : kLeafBit | count << kLeafCountShift | (children.firstTriangle + offset);
 }
 
-// What a ray passes through. A triangle that a ray starts or ends on must not be hit there: no offset of the origin could
-// prevent it without tearing holes, since the computed t of a grazing ray is off by the triangle's size times rounding.
-struct RayFilter {
-    bool cullBackFaces;   // the backs of single-sided triangles, as camera rays do
-    uint firstTriangle;   // ids, or kNoTriangle
-    uint secondTriangle;
-    uint alphaSeed;       // of its decisions where surfaces may let it through: scene/alpha.glsl
-};
-
-bool passesThrough(RayFilter ignored, LeafTriangle triangle, bool front) {
-    if (triangle.triangle == ignored.firstTriangle || triangle.triangle == ignored.secondTriangle)
-        return true;
-    return ignored.cullBackFaces && !front && (triangle.material & kNeverCulledBit) == 0u;
-}
-
-// Shortens hit.t where one of a leaf's triangles is hit before it, or asks whether one lets the ray through.
-bool intersectLeaf(ShearedRay ray, uint leaf, RayFilter ignored, inout AlphaQuestion question, inout Hit hit) {
+// Takes a leaf's triangles that are hit before `nearest` for the nearest, or asks whether one lets the ray through.
+bool intersectLeaf(ShearedRay ray, uint leaf, RayFilter ignored, inout AlphaQuestion question, inout NearestHit nearest) {
     uint first = leaf & kLeafFirstMask;
     uint end = first + ((leaf >> kLeafCountShift) & kLeafCountMask);
     bool found = false;
     for (uint i = first; i < end; ++i) {
         visited.triangles += kCountVisits ? 1u : 0u;
-        LeafTriangle triangle = loadLeafTriangle(i);
+        TriangleRecord triangle = loadTriangle(i);
         TriangleHit candidate;
-        if (!intersectTriangle(ray, triangle.v0, triangle.v1, triangle.v2, hit.t, candidate) ||
+        if (!intersectTriangle(ray, triangle.v0, triangle.v1, triangle.v2, candidate) ||
+            !comesFirst(candidate.t, triangle.surface, nearest.hit.t, nearest.surface) ||
             passesThrough(ignored, triangle, candidate.front))
             continue;
         if (sceneHas(kFeatureAlpha) && (triangle.material & kAlphaBit) != 0u) {
             askAlpha(Hit(candidate.t, i, candidate.barycentrics), first, question);
             continue;
         }
-        hit = Hit(candidate.t, i, candidate.barycentrics);
+        nearest = NearestHit(Hit(candidate.t, i, candidate.barycentrics), triangle.surface);
         found = true;
     }
     return found;
@@ -90,9 +71,9 @@ uint nextLeaf(SlabRay slab, float tMax, inout uint siblings, inout Stack stack) 
     return isNode ? kEmptyLeaf : nearest;
 }
 
-// Depth first, near children first. A step tests a node and then, whatever came of it, a leaf: rays that run in lockstep
+// Traverses depth first, near children first. A step tests a node and then, whatever came of it, a leaf: rays that run in lockstep
 // would otherwise pay for both and take one. Returns at the first hit if `any`.
-bool traverse(vec3 origin, vec3 direction, RayFilter ignored, bool any, inout Hit hit) {
+bool traverse(vec3 origin, vec3 direction, RayFilter ignored, bool any, inout NearestHit nearest) {
     direction = withoutZeros(direction);
     SlabRay slab = slabRay(origin, direction);
     ShearedRay sheared = shearRay(origin, direction);
@@ -106,9 +87,9 @@ bool traverse(vec3 origin, vec3 direction, RayFilter ignored, bool any, inout Hi
             if (!sceneHas(kFeatureAlpha) || leaf == kEmptyLeaf) {
                 if (!anyWaits(siblings))
                     siblings = pop(stack);
-                leaf = nextLeaf(slab, hit.t, siblings, stack);
+                leaf = nextLeaf(slab, nearest.hit.t, siblings, stack);
             }
-            found = intersectLeaf(sheared, leaf, ignored, question, hit) || found;
+            found = intersectLeaf(sheared, leaf, ignored, question, nearest) || found;
             if (any && found)
                 return true;
             if (question.isOpen)
@@ -120,7 +101,7 @@ bool traverse(vec3 origin, vec3 direction, RayFilter ignored, bool any, inout Hi
         }
         bool asked = question.isOpen;
         if (sceneHas(kFeatureAlpha)) {
-            found = answerAlpha(leaf & kLeafFirstMask, ignored.alphaSeed, question, hit) || found;
+            found = answerAlpha(leaf & kLeafFirstMask, ignored.alphaSeed, question, nearest) || found;
             if (any && found)
                 return true;
         }
@@ -131,16 +112,16 @@ bool traverse(vec3 origin, vec3 direction, RayFilter ignored, bool any, inout Hi
     }
 }
 
-// The nearest hit with 0 < t < tMax. `direction` has a length near 1.
 bool intersectClosest(vec3 origin, vec3 direction, float tMax, RayFilter ignored, out Hit hit) {
-    hit = Hit(tMax, 0u, vec2(0.0));
-    return traverse(origin, direction, ignored, false, hit);
+    NearestHit nearest = nothingBefore(tMax);
+    bool found = traverse(origin, direction, ignored, false, nearest);
+    hit = nearest.hit;
+    return found;
 }
 
-// Whether anything, from either side, lies at 0 < t < tMax.
 bool intersectAny(vec3 origin, vec3 direction, float tMax, RayFilter ignored) {
-    Hit hit = Hit(tMax, 0u, vec2(0.0));
-    return traverse(origin, direction, ignored, true, hit);
+    NearestHit nearest = nothingBefore(tMax);
+    return traverse(origin, direction, ignored, true, nearest);
 }
 
 #endif

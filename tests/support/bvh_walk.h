@@ -21,7 +21,7 @@ struct Box {
     [[nodiscard]] bool isEmpty() const { return glm::any(glm::greaterThan(lower, upper)); }
 };
 
-// Exact where origin and extent are within 2^29 of each other in size.
+// The box of a slot, exact where origin and extent are within 2^29 of each other in size.
 inline Box childBox(const BvhNode& node, uint32_t slot) {
     Box box{};
     const auto byte = [&](const glm::uvec2& plane) {
@@ -99,28 +99,42 @@ inline bool meets(const Box& box, const OracleRay& ray) {
     return enter <= leave + 1e-12 * (1.0 + std::abs(leave));
 }
 
-// The closest hit by way of the tree, infinity for none.
-inline double closestInTree(const Bvh& bvh, std::span<const Triangle> triangles, const OracleRay& ray,
-                            uint32_t node = 0) {
-    double closest = std::numeric_limits<double>::infinity();
+// The closest hit: of triangles at equal distance that of the lowest id, as on the device.
+struct WalkHit {
+    double t = std::numeric_limits<double>::infinity(); // infinity: nothing is hit
+    uint32_t triangle = 0xffffffffu;
+
+    bool operator==(const WalkHit&) const = default;
+    void keepFirst(const WalkHit& other) {
+        if (other.t < t || (other.t == t && other.triangle < triangle))
+            *this = other;
+    }
+};
+
+// By way of the tree.
+inline WalkHit closestInTree(const Bvh& bvh, std::span<const Triangle> triangles, const OracleRay& ray,
+                             uint32_t node = 0) {
+    WalkHit closest;
     for (uint32_t slot = 0; slot < kBvhWidth; ++slot) {
         if (!meets(childBox(bvh.nodes[node], slot), ray))
             continue;
         const uint32_t reference = childReference(bvh.nodes[node], slot);
         if (!isLeaf(reference))
-            closest = std::min(closest, closestInTree(bvh, triangles, ray, reference));
+            closest.keepFirst(closestInTree(bvh, triangles, ray, reference));
         else
             for (const uint32_t id : leafOf(bvh, reference))
-                closest = std::min(closest, hitDistance(triangles[id], ray));
+                if (const double t = hitDistance(triangles[id], ray); std::isfinite(t))
+                    closest.keepFirst({t, id});
     }
     return closest;
 }
 
-// The closest hit by way of every triangle.
-inline double closestOfAll(std::span<const Triangle> triangles, const OracleRay& ray) {
-    double closest = std::numeric_limits<double>::infinity();
-    for (const Triangle& triangle : triangles)
-        closest = std::min(closest, hitDistance(triangle, ray));
+// By way of every triangle.
+inline WalkHit closestOfAll(std::span<const Triangle> triangles, const OracleRay& ray) {
+    WalkHit closest;
+    for (uint32_t id = 0; id < triangles.size(); ++id)
+        if (const double t = hitDistance(triangles[id], ray); std::isfinite(t))
+            closest.keepFirst({t, id});
     return closest;
 }
 

@@ -1,4 +1,4 @@
-// One image in the making, and what its making took.
+// One image in the making: its scene, its renderer, and what its making took.
 #pragma once
 
 #include <chrono>
@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "gpu/device.h"
 #include "render/renderer.h"
 #include "scene/scene.h"
 #include "session/checkpoint.h"
@@ -29,19 +30,23 @@ class Stopwatch {
     StageTimes stages_;
 };
 
-struct Take {
+struct RenderJob {
+    // Asked after each wave with the fraction done, in [0, 1]; false ends the render.
+    using KeepGoing = std::function<bool(double fraction)>;
+
     Stopwatch watch{};
-    Scene scene;
+    const gpu::Device* device = nullptr; // outlives the job
+    Scene scene{};
     std::unique_ptr<Renderer> renderer{};
     RenderReport report{};
-    std::optional<double>
-        toFirstSamples{}; // seconds from the start of the process to the end of the first wave
-    FilmCost before{};    // what the samples cost that a checkpoint brought
+    // Seconds from the start of the process to the end of the first wave.
+    std::optional<double> toFirstSamples{};
+    FilmCost before{}; // what the samples cost that a checkpoint brought
 
-    // The inputs of the report: scene, settings, device, content.
-    void describeInputs(const gpu::Device& device, const std::vector<std::string>& changedShaders);
-    // Renders, and asks with the fraction done after each wave; false ends it.
-    void takeSamples(const std::function<bool(double fraction)>& mayGoOn);
+    // Enters scene, settings, device and content into the report; shaders may have changed since the renderer
+    // was made.
+    void describeInputs(const std::vector<std::string>& changedShaders);
+    void takeSamples(const KeepGoing& keepGoing);
 
     // The film as it is, with its header; it needs describeInputs().
     [[nodiscard]] FilmFile film() const;

@@ -1,6 +1,8 @@
 // A triangle that a ray has met and that may let it through. Traversal leaves its loop to ask: lavapipe executes all that
 // stands in a loop, and would look up textures at every step.
 #include "scene/alpha.glsl"
+#include "scene/bvh8/nearest_hit.glsl"
+#include "scene/triangle_record.glsl"
 #include "shared/wavefront.h"
 
 struct AlphaQuestion {
@@ -13,24 +15,25 @@ const AlphaQuestion kNoQuestion = AlphaQuestion(false, Hit(0.0, 0u, vec2(0.0)), 
 
 // Takes a triangle of the leaf that starts at `first` for a candidate, unless it has answered.
 void askAlpha(Hit candidate, uint first, inout AlphaQuestion question) {
-    if ((question.passed >> (candidate.leafTriangle - first) & 1u) == 0u) {
+    if ((question.passed >> (candidate.record - first) & 1u) == 0u) {
         question.isOpen = true;
         question.candidate = candidate;
     }
 }
 
-// True if the candidate stops the ray, and hit is shortened to it.
-bool answerAlpha(uint first, uint seed, inout AlphaQuestion question, inout Hit hit) {
+// Returns whether the candidate stops the ray, and then takes it for the nearest.
+bool answerAlpha(uint first, uint seed, inout AlphaQuestion question, inout NearestHit nearest) {
     const bool wasOpen = question.isOpen;
     const Hit candidate = question.candidate;
     const vec3 b = vec3(1.0 - candidate.barycentrics.x - candidate.barycentrics.y, candidate.barycentrics);
     question.isOpen = false;
-    if (wasOpen && letsThrough(loadLeafTriangle(candidate.leafTriangle), b, seed)) {
-        question.passed |= 1u << (candidate.leafTriangle - first);
+    const TriangleRecord triangle = loadTriangle(candidate.record);
+    if (wasOpen && letsThrough(triangle, b, seed)) {
+        question.passed |= 1u << (candidate.record - first);
         return false;
     }
-    if (!wasOpen || candidate.t >= hit.t)
+    if (!wasOpen || !comesFirst(candidate.t, triangle.surface, nearest.hit.t, nearest.surface))
         return false;
-    hit = candidate;
+    nearest = NearestHit(candidate, triangle.surface);
     return true;
 }

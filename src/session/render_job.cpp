@@ -1,4 +1,4 @@
-#include "session/take.h"
+#include "session/render_job.h"
 
 #include <utility>
 
@@ -17,29 +17,29 @@ double Stopwatch::sinceLap() const {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - last_).count();
 }
 
-void Take::describeInputs(const gpu::Device& device, const std::vector<std::string>& changedShaders) {
+void RenderJob::describeInputs(const std::vector<std::string>& changedShaders) {
     fillInputs(report, scene, renderer->settings());
-    report.settings.changedShaders = changedShaders;
-    report.device = device.description();
+    report.settings.provenance.changedShaders = changedShaders;
+    report.device = device->description();
     report.content = fingerprintsOf(*renderer);
 }
 
-void Take::takeSamples(const std::function<bool(double fraction)>& mayGoOn) {
+void RenderJob::takeSamples(const KeepGoing& keepGoing) {
     report.stop = renderer->render([&](double fraction) {
         if (!toFirstSamples)
             toFirstSamples = secondsSinceProcessStart();
-        return mayGoOn(fraction);
+        return keepGoing(fraction);
     });
     report.renderSeconds = before.seconds + watch.lap("render");
 }
 
-FilmFile Take::film() const {
+FilmFile RenderJob::film() const {
     RenderReport now = report;
     now.rays = renderer->waves().rays() + before.rays;
     return recordFilm(*renderer, scene, std::move(now));
 }
 
-void Take::resumeFrom(Checkpoint& checkpoint) {
+void RenderJob::resumeFrom(Checkpoint& checkpoint) {
     const std::optional<FilmFile> film = checkpoint.read();
     if (!film)
         return;
@@ -47,7 +47,7 @@ void Take::resumeFrom(Checkpoint& checkpoint) {
     before = costOf(*film);
 }
 
-void Take::keep(Checkpoint& checkpoint) {
+void RenderJob::keep(Checkpoint& checkpoint) {
     report.stop = StopReason::interrupted;
     report.renderSeconds = before.seconds + watch.sinceLap();
     checkpoint.write([&] { return film(); });

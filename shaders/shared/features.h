@@ -1,0 +1,51 @@
+// What a scene may have or not. Kernels leave out the code for what theirs has not: lib/features.glsl.
+#ifndef LAVALIGHT_SHARED_FEATURES_H
+#define LAVALIGHT_SHARED_FEATURES_H
+
+#include "shared/types.h"
+
+LAVALIGHT_SHARED_BEGIN
+
+// On the host a set of 64 bits, of which kernels get two words; in a kernel the number of one bit.
+#ifdef __cplusplus
+using SceneFeatures = uint64_t;
+#define SHARED_FEATURE(number) (SceneFeatures{1} << (number))
+#else
+#define SceneFeatures uint
+#define SHARED_FEATURE(number) number
+#endif
+
+SHARED_CONST SceneFeatures kFeatureSpecular = SHARED_FEATURE(0u);    // a surface that is not pure Lambert
+SHARED_CONST SceneFeatures kFeatureGlass = SHARED_FEATURE(1u);       // a transmissive one
+SHARED_CONST SceneFeatures kFeatureRoughLobes = SHARED_FEATURE(2u);  // such a lobe with alpha of kSmoothAlpha or more
+SHARED_CONST SceneFeatures kFeatureSmoothLobes = SHARED_FEATURE(3u); // with less
+SHARED_CONST SceneFeatures kFeatureShadingNormals = SHARED_FEATURE(4u);
+SHARED_CONST SceneFeatures kFeatureTriangleLights = SHARED_FEATURE(5u);
+SHARED_CONST SceneFeatures kFeaturePunctualLights = SHARED_FEATURE(6u);
+SHARED_CONST SceneFeatures kFeatureEnvironment = SHARED_FEATURE(7u);
+SHARED_CONST SceneFeatures kFeatureLightTree = SHARED_FEATURE(8u);
+SHARED_CONST SceneFeatures kFeatureTextures = SHARED_FEATURE(9u);
+SHARED_CONST SceneFeatures kFeatureVertexColors = SHARED_FEATURE(10u);
+SHARED_CONST SceneFeatures kFeatureTangents = SHARED_FEATURE(11u); // of normal maps and anisotropy
+SHARED_CONST SceneFeatures kFeatureAlpha = SHARED_FEATURE(12u);
+SHARED_CONST SceneFeatures kFeatureUnlit = SHARED_FEATURE(13u);
+SHARED_CONST SceneFeatures kFeatureEnvironmentMap = SHARED_FEATURE(14u);
+SHARED_CONST SceneFeatures kFeatureAttenuation = SHARED_FEATURE(15u);
+SHARED_CONST SceneFeatures kFeatureDispersion = SHARED_FEATURE(16u);
+SHARED_CONST SceneFeatures kFeatureClearcoat = SHARED_FEATURE(17u);
+SHARED_CONST SceneFeatures kFeatureSheen = SHARED_FEATURE(18u);
+SHARED_CONST SceneFeatures kFeatureAnisotropy = SHARED_FEATURE(19u);
+SHARED_CONST SceneFeatures kFeatureIridescence = SHARED_FEATURE(20u);
+SHARED_CONST SceneFeatures kFeatureDiffuseTransmission = SHARED_FEATURE(21u);
+SHARED_CONST SceneFeatures kFeatureLights = SHARED_FEATURE(22u);           // there are any
+SHARED_CONST SceneFeatures kFeatureEnvironmentLight = SHARED_FEATURE(23u); // the environment is among them
+// From here on in the second word.
+SHARED_CONST SceneFeatures kFeatureLens = SHARED_FEATURE(32u); // of the camera, as the next two
+SHARED_CONST SceneFeatures kFeaturePanorama = SHARED_FEATURE(33u);
+SHARED_CONST SceneFeatures kFeatureOrthographic = SHARED_FEATURE(34u);
+SHARED_CONST SceneFeatures kFeatureSolids = SHARED_FEATURE(35u);        // two solids that may overlap
+SHARED_CONST SceneFeatures kFeatureManyTriangles = SHARED_FEATURE(36u); // so that it pays to trace alike rays together
+
+LAVALIGHT_SHARED_END
+
+#endif

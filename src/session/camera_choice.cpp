@@ -1,0 +1,113 @@
+#include "session/camera_choice.h"
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/named.h"
+#include "scene/look_at.h"
+
+namespace lavalight {
+namespace {
+
+const Camera& pickCamera(const Scene& scene, const std::string& wanted) {
+    if (wanted.empty())
+        return scene.cameras.front();
+    std::vector<std::string> names;
+    for (const Camera& camera : scene.cameras)
+        names.push_back(camera.name);
+    return scene.cameras[findNamed(names, {wanted, "--camera", "camera", scene.source})];
+}
+
+std::string textOf(const glm::vec3& v) {
+    return fmt::format("{},{},{}", v.x, v.y, v.z);
+}
+
+void aim(Camera& camera, const CameraChoice& choice) {
+    if (!choice.lookFrom && !choice.lookAt && !choice.up)
+        return;
+    if (!choice.lookFrom || (!choice.lookAt && !choice.panorama))
+        throw UsageError("--look-from and --look-at: one needs the other");
+    if (!choice.name.empty())
+        throw UsageError("--camera and --look-from: one camera is enough");
+    const glm::vec3 from = *choice.lookFrom;
+    const glm::vec3 at = choice.lookAt.value_or(from + glm::vec3(1.0f, 0.0f, 0.0f));
+    const std::optional<Camera> aimed =
+        lookAtCamera(from, at, choice.up.value_or(glm::vec3(0.0f, 1.0f, 0.0f)));
+    if (!aimed)
+        throw UsageError(from == at ? fmt::format("--look-at: {} is where the camera is", textOf(at))
+                                    : "--up: it must not be 0,0,0 or lie along the direction of view");
+    camera = *aimed;
+    camera.focusDistance = glm::dot(at - from, camera.forward);
+}
+
+void setFieldOfView(Camera& camera, const CameraChoice& choice) {
+    if (!choice.fov)
+        return;
+    if (!(*choice.fov > 0.0f && *choice.fov < 180.0f))
+        throw UsageError(
+            fmt::format("--fov: {} is outside the range above 0 to below 180 degrees", *choice.fov));
+    if (choice.panorama || camera.projection != Projection::perspective)
+        throw UsageError("--fov: only perspective cameras have one");
+    camera.verticalFov = static_cast<float>(double{*choice.fov} * std::numbers::pi / 180.0);
+}
+
+void setLens(Camera& camera, const Scene& scene, const CameraChoice& choice) {
+    if (!(choice.aperture >= 0.0f) || !std::isfinite(choice.aperture))
+        throw UsageError(
+            fmt::format("--aperture: {} is not a diameter of 0 or more metres", choice.aperture));
+    if (choice.focus && (!(*choice.focus > 0.0f) || !std::isfinite(*choice.focus)))
+        throw UsageError(fmt::format("--focus: {} is not a distance above 0 metres", *choice.focus));
+    if (choice.aperture == 0.0f)
+        return;
+    if (camera.projection != Projection::perspective)
+        throw UsageError("--aperture: only perspective cameras have a lens");
+    camera.lensRadius = 0.5f * choice.aperture;
+    if (choice.focus)
+        camera.focusDistance = *choice.focus;
+    else if (!choice.lookAt)
+        camera.focusDistance = glm::dot(scene.bounds.center() - camera.position, camera.forward);
+    if (!(camera.focusDistance > 0.0f))
+        throw UsageError("--focus: the middle of the scene is behind the camera; give a distance");
+}
+
+} // namespace
+
+Camera chooseCamera(const Scene& scene, const CameraChoice& choice) {
+    Camera camera = pickCamera(scene, choice.name);
+    aim(camera, choice);
+    setFieldOfView(camera, choice);
+    if (choice.panorama) {
+        camera.projection = Projection::panorama;
+        camera.aspect = 2.0f;
+    }
+    setLens(camera, scene, choice);
+    return camera;
+}
+
+OptionPairs describe(const CameraChoice& choice) {
+    OptionPairs pairs;
+    const auto add = [&](const char* name, const std::optional<std::string>& text) {
+        if (text)
+            pairs.emplace_back(name, *text);
+    };
+    const auto number = [](const std::optional<float>& value) {
+        return value ? std::optional(fmt::format("{}", *value)) : std::nullopt;
+    };
+    const auto vector = [](const std::optional<glm::vec3>& value) {
+        return value ? std::optional(textOf(*value)) : std::nullopt;
+    };
+    add("look-from", vector(choice.lookFrom));
+    add("look-at", vector(choice.lookAt));
+    add("up", vector(choice.up));
+    add("fov", number(choice.fov));
+    add("aperture", choice.aperture > 0.0f ? number(choice.aperture) : std::nullopt);
+    add("focus", number(choice.focus));
+    add("panorama", choice.panorama ? std::optional<std::string>("on") : std::nullopt);
+    return pairs;
+}
+
+} // namespace lavalight

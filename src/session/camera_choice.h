@@ -1,0 +1,33 @@
+// Which camera a render looks through: one of the scene's, or one that is placed by hand.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <glm/glm.hpp>
+
+#include "render/settings.h"
+#include "scene/scene.h"
+
+namespace lavalight {
+
+// Lengths in metres. Members have the names of the command line's options.
+struct CameraChoice {
+    std::string name;                  // a camera of the scene by name or index; empty: the first
+    std::optional<glm::vec3> lookFrom; // a camera at this place; with lookAt, instead of the scene's
+    std::optional<glm::vec3> lookAt;   // the point in the middle of the image
+    std::optional<glm::vec3> up;       // default: +Y
+    std::optional<float> fov;          // vertical, in degrees, above 0 and below 180
+    float aperture = 0.0f;             // diameter of the lens; 0: all is sharp
+    std::optional<float> focus;        // to the plane that is sharp, along the view
+    bool panorama = false;             // all directions, laid out as environment maps are
+    bool operator==(const CameraChoice&) const = default;
+};
+
+// Throws UsageError naming the option and what it takes, or the cameras there are.
+[[nodiscard]] Camera chooseCamera(const Scene& scene, const CameraChoice& choice);
+
+// Names (without dashes) and values of what the camera's name does not tell.
+[[nodiscard]] OptionPairs describe(const CameraChoice& choice);
+
+} // namespace lavalight

@@ -1,0 +1,18 @@
+// Scenes together with the light that a render brings.
+#pragma once
+
+#include <string>
+
+#include "gltf/import_options.h"
+#include "render/settings.h"
+#include "scene/scene.h"
+
+namespace lavalight {
+
+// The scene, built in or a file, with the environment map that the lighting names, if it does. A map whose
+// values had to be changed adds a warning to the scene. Throws Error for a file that is not a scene, or not a
+// map.
+[[nodiscard]] Scene loadLitScene(const std::string& nameOrPath, ImportOptions options,
+                                 const LightingSettings& lighting);
+
+} // namespace lavalight

@@ -1,0 +1,111 @@
+#include "session/render_session.h"
+
+#include <utility>
+
+#include "base/log.h"
+#include "session/lit_scene.h"
+
+namespace lavalight {
+namespace {
+
+PreparedScene complete(Scene scene, const Camera& camera, const RenderSettings& settings) {
+    PreparedScene prepared{std::move(scene), camera, resolveSize(settings, camera)};
+    checkSettings(prepared.settings);
+    return prepared;
+}
+
+Scene loadScene(const RenderPlan& plan, const ImportOptions& moment) {
+    return loadLitScene(plan.scene, moment, plan.settings.lighting);
+}
+
+void logWarnings(const Scene& scene) {
+    for (const std::string& warning : scene.warnings)
+        spdlog::warn("{}", warning);
+}
+
+} // namespace
+
+PreparedScene prepareScene(const RenderPlan& plan, const ImportOptions& moment) {
+    Scene scene = loadScene(plan, moment);
+    logWarnings(scene);
+    const Camera camera = chooseCamera(scene, plan.camera);
+    return complete(std::move(scene), camera, plan.settings);
+}
+
+void RenderSession::use(const std::shared_ptr<ShaderOverlay>& overlay) {
+    plan_.settings.provenance.changedShaders = overlay ? overlay->changed() : std::vector<std::string>();
+    source_ = sourceOf(overlay);
+}
+
+// The first scene of an animation speaks for all: its warnings, its stand-in camera, its image's size.
+PreparedScene RenderSession::load(const ImportOptions& moment) {
+    Scene scene = loadScene(plan_, moment);
+    if (!device_)
+        logWarnings(scene);
+    const Camera camera = standIn_ ? *standIn_ : chooseCamera(scene, plan_.camera);
+    if (!scene.hasOwnCamera)
+        standIn_ = camera;
+    PreparedScene prepared = complete(std::move(scene), camera, plan_.settings);
+    plan_.settings = prepared.settings;
+    return prepared;
+}
+
+std::unique_ptr<Renderer> RenderSession::makeRenderer(const PreparedScene& prepared) {
+    if (!kernels_)
+        return std::make_unique<Renderer>(*device_, prepared.scene, prepared.camera, prepared.settings,
+                                          source_);
+    EstimatorKernels earlier = std::move(*kernels_);
+    kernels_.reset();
+    return std::make_unique<Renderer>(*device_, prepared.scene, prepared.camera, prepared.settings,
+                                      std::move(earlier), source_);
+}
+
+RenderJob RenderSession::prepare(const ImportOptions& moment, const Outputs& outputs) {
+    RenderJob job;
+    PreparedScene prepared = load(moment);
+    job.report.import = moment;
+    job.report.camera = prepared.camera.name;
+    job.watch.lap("load");
+    if (!device_)
+        device_.emplace(plan_.device);
+    job.device = &*device_;
+    job.watch.lap("device");
+    job.renderer = makeRenderer(prepared);
+    if (!outputs.png.empty() && !toneMapper_)
+        toneMapper_.emplace(*device_, source_);
+    job.scene = std::move(prepared.scene);
+    job.watch.lap("prepare");
+    return job;
+}
+
+void RenderSession::reload(RenderJob& job) {
+    job.watch = Stopwatch();
+    std::optional<ToneMapper> toneMapper;
+    if (toneMapper_)
+        toneMapper.emplace(*device_, source_);
+    job.renderer->reloadKernels(source_);
+    toneMapper_ = std::move(toneMapper);
+    job.watch.lap("prepare");
+}
+
+void RenderSession::render(RenderJob& job, Checkpoint& checkpoint, bool resumes,
+                           const RenderJob::KeepGoing& keepGoing) {
+    job.describeInputs(plan_.settings.provenance.changedShaders);
+    if (resumes)
+        job.resumeFrom(checkpoint);
+    job.takeSamples([&](double fraction) {
+        if (checkpoint.isDue())
+            job.keep(checkpoint);
+        return keepGoing(fraction);
+    });
+    if (checkpoint.isWanted())
+        checkpoint.write([&] { return job.film(); });
+}
+
+void RenderSession::write(RenderJob& job, const Outputs& outputs) {
+    device_->requireNoValidationMessages();
+    job.describeInputs(plan_.settings.provenance.changedShaders);
+    writeOutputs(job, outputs, plan_.style, toneMapper_ ? &*toneMapper_ : nullptr);
+}
+
+} // namespace lavalight

@@ -1,0 +1,80 @@
+// Renders from scene to files. It knows no command line: options arrive as values, progress and interruption
+// are callbacks, failures are exceptions.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "gltf/import_options.h"
+#include "gpu/device.h"
+#include "kernels/shader_overlay.h"
+#include "render/settings.h"
+#include "render/tone_mapper.h"
+#include "session/camera_choice.h"
+#include "session/outputs.h"
+#include "session/render_job.h"
+
+namespace lavalight {
+
+// What all images of a session have in common.
+struct RenderPlan {
+    std::string scene;       // built-in name, or path of a file
+    RenderSettings settings; // width 0: by the camera's aspect ratio
+    CameraChoice camera;
+    gpu::DeviceConfig device;
+    OutputStyle style;
+};
+
+// A scene that was loaded for a render, its camera, and settings that are complete and checked.
+struct PreparedScene {
+    Scene scene;
+    Camera camera;
+    RenderSettings settings;
+};
+
+// Loads the plan's scene at a moment of its animation, logs its warnings, and chooses the camera. Throws
+// Error or UsageError naming the option.
+[[nodiscard]] PreparedScene prepareScene(const RenderPlan& plan, const ImportOptions& moment);
+
+// Keeps from one image to the next what can be kept: the device, kernels that serve, and the camera that
+// stands in for a scene without one, so that an animation does not move it.
+class RenderSession {
+  public:
+    // Opens no device yet.
+    explicit RenderSession(RenderPlan plan) : plan_(std::move(plan)) {}
+    RenderSession(const RenderSession&) = delete; // jobs refer to the device
+    RenderSession& operator=(const RenderSession&) = delete;
+
+    // Shaders for the jobs to come and for the record; null: those of the build.
+    void use(const std::shared_ptr<ShaderOverlay>& overlay);
+
+    // Loads the scene, opens the device if this is the first job, and compiles the kernels that `outputs`
+    // need. Throws Error or UsageError.
+    [[nodiscard]] RenderJob prepare(const ImportOptions& moment, const Outputs& outputs);
+    // Goes on with the shaders of use() and an empty film. Throws Error with the job as it was.
+    void reload(RenderJob& job);
+
+    // Takes the job's samples, goes on from the checkpoint first if `resumes`, and keeps it up to date.
+    void render(RenderJob& job, Checkpoint& checkpoint, bool resumes, const RenderJob::KeepGoing& keepGoing);
+    // Writes the image so far. Throws Error, also for messages of the validation layer.
+    void write(RenderJob& job, const Outputs& outputs);
+    // Ends a job; its kernels serve the next one.
+    void finish(RenderJob job) { kernels_.emplace(job.renderer->releaseKernels()); }
+
+    // The tone mapper, once a job had a PNG to write; else null.
+    [[nodiscard]] const ToneMapper* toneMapper() const { return toneMapper_ ? &*toneMapper_ : nullptr; }
+
+  private:
+    [[nodiscard]] PreparedScene load(const ImportOptions& moment);
+    [[nodiscard]] std::unique_ptr<Renderer> makeRenderer(const PreparedScene& prepared);
+
+    RenderPlan plan_;
+    KernelSource source_ = embeddedKernel;
+    std::optional<Camera> standIn_;
+    std::optional<gpu::Device> device_;
+    std::optional<EstimatorKernels> kernels_;
+    std::optional<ToneMapper> toneMapper_;
+};
+
+} // namespace lavalight

@@ -1,0 +1,132 @@
+// A film does not depend on who built the tree over the scene's triangles.
+#include "support/other_trees.h"
+
+#include <algorithm>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "device_scene/scene_features.h"
+#include "render/film.h"
+#include "render/renderer.h"
+#include "support/patched_kernel.h"
+#include "support/render_scene.h"
+#include "support/scene_builder.h"
+#include "support/test_device.h"
+
+namespace lavalight::test {
+namespace {
+
+constexpr uint32_t kSize = 48;
+
+Material colored(const glm::vec3& color, float alpha = 1.0f) {
+    Material material = lambert(color);
+    material.alphaMode = alpha < 1.0f ? AlphaMode::blend : AlphaMode::opaque;
+    material.alpha = alpha;
+    return material;
+}
+
+// `cells` x `cells` squares, whose corners neighbours share.
+Shape grid(const glm::vec3& corner, const glm::vec3& u, const glm::vec3& v, uint32_t cells) {
+    Shape shape;
+    for (uint32_t y = 0; y <= cells; ++y)
+        for (uint32_t x = 0; x <= cells; ++x)
+            shape.positions.push_back(corner + static_cast<float>(x) / static_cast<float>(cells) * u +
+                                      static_cast<float>(y) / static_cast<float>(cells) * v);
+    for (uint32_t y = 0; y < cells; ++y)
+        for (uint32_t x = 0; x < cells; ++x) {
+            const uint32_t first = y * (cells + 1) + x;
+            shape.triangles.emplace_back(first, first + 1, first + cells + 1);
+            shape.triangles.emplace_back(first + 1, first + cells + 2, first + cells + 1);
+        }
+    return shape;
+}
+
+// The same triangles, the last one first.
+Shape backwards(Shape shape) {
+    std::reverse(shape.triangles.begin(), shape.triangles.end());
+    return shape;
+}
+
+// Floors, walls and balls of shared edges; each is there twice or three times
+// in one place, in other colours, in another order of its triangles, and where
+// alpha lets some rays through.
+Scene crowdedRoom() {
+    const Shape floor = grid({-2, 0, -2}, {0, 0, 4}, {4, 0, 0}, 13);
+    const Shape wall = grid({-2, 0, -2}, {4, 0, 0}, {0, 4, 0}, 7);
+    const Shape body = ball({0.3f, 0.8f, 0}, 0.8f);
+    SceneBuilder builder;
+    builder.add(floor, colored({0.8f, 0.3f, 0.3f}, 0.5f));
+    builder.add(backwards(floor), colored({0.3f, 0.8f, 0.3f}));
+    builder.add(floor, colored({0.3f, 0.3f, 0.8f}));
+    builder.add(wall, colored({0.7f, 0.7f, 0.2f}));
+    builder.add(backwards(wall), colored({0.2f, 0.7f, 0.7f}, 0.5f));
+    builder.add(backwards(body), colored({0.9f, 0.9f, 0.9f}, 0.3f));
+    builder.add(body, colored({0.7f, 0.2f, 0.7f}, 0.6f));
+    builder.add(rectangle({0, 3.9f, 0}, {0.7f, 0, 0}, {0, 0, 0.7f}), light(glm::vec3(8.0f)));
+    builder.add(rectangle({0, 3.9f, 0}, {0.7f, 0, 0}, {0, 0, 0.7f}), light(glm::vec3(2.0f, 8.0f, 2.0f)));
+    return builder.environment(glm::vec3(0.3f)).camera(lookAt({1, 2.5f, 4}, {0, 1, 0}, 0.9f)).build();
+}
+
+class OtherTrees : public DeviceTest {
+  protected:
+    void prepare(Schedule schedule, const KernelSource& source = embeddedKernel) {
+        settings_ = imageSettings(kSize, kSize, 16);
+        settings_.work.schedule = schedule;
+        settings_ = resolveSchedule(settings_, true);
+        settings_.work.waveSize = kSize * kSize * settings_.stop.samples;
+        const SceneFeatures features =
+            sceneFeatures(scene_, lights_) | cameraFeatures(scene_.cameras.front());
+        kernels_.emplace(device(), schedule, settings_.estimator, features, source);
+    }
+    [[nodiscard]] std::vector<uint32_t> filmWith(const Bvh& tree) {
+        SceneData data = packScene(scene_, lights_);
+        data.accelerator.bvh = tree;
+        const GpuScene gpuScene(device(), data);
+        FrameParameters frame = makeFrame(scene_, scene_.cameras.front(), settings_);
+        setLights(frame, lights_);
+        Film film(device(), kSize, kSize, 0);
+        film.clear();
+        const auto kernel = [&](std::string_view name) -> const gpu::Kernel& { return (*kernels_)[name]; };
+        makeWaveRenderer(device(), settings_.work.schedule,
+                         {gpuScene, gpuScene.albedoTable().buffer, film, frame, kernel})
+            ->renderWave(0, {0, kSize * kSize, 0, settings_.stop.samples, 0, 0, 0, 0, 0});
+        return film.bands().front().sums.downloadAll<uint32_t>();
+    }
+
+    const Scene scene_ = crowdedRoom();
+    const Lights lights_ = collectLights(scene_, scene_.environment, LightSelection::power);
+    const std::vector<Triangle> triangles_ = sceneTriangles(scene_);
+
+  private:
+    RenderSettings settings_;
+    std::optional<EstimatorKernels> kernels_;
+};
+
+TEST_F(OtherTrees, GiveTheSameFilm) {
+    const Bvh embree = buildBvh(triangles_);
+    for (const Schedule schedule : {Schedule::fused, Schedule::wavefront}) {
+        prepare(schedule);
+        const std::vector<uint32_t> film = filmWith(embree);
+        EXPECT_EQ(filmWith(medianBvh(triangles_)), film);
+        EXPECT_EQ(filmWith(withLeavesReversed(embree)), film);
+        EXPECT_EQ(filmWith(buildBvh(triangles_, {.triangleCost = 1.0f, .splitBudget = 2.0f})), film);
+    }
+}
+
+// By the rule for triangles at equal distance, and not because there are none.
+TEST_F(OtherTrees, GiveOtherFilmsWhereTheFirstTriangleMetWins) {
+    prepare(Schedule::fused, [](std::string_view kernel) {
+        return patchedKernel(kernel,
+                             {"scene/intersect.glsl", " || (t == otherT && precedes(surface, other))", ""});
+    });
+    const Bvh embree = buildBvh(triangles_);
+    const std::vector<uint32_t> film = filmWith(embree);
+    EXPECT_NE(filmWith(medianBvh(triangles_)), film);
+    EXPECT_NE(filmWith(withLeavesReversed(embree)), film);
+}
+
+} // namespace
+} // namespace lavalight::test
