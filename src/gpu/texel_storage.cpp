@@ -41,6 +41,7 @@ enum Op : uint32_t {
     OpImageQuerySize = 104,
 };
 constexpr uint32_t DimBuffer = 5;
+constexpr uint32_t OperandZeroExtend = 0x2000;
 constexpr uint32_t StorageClassStorageBuffer = 12;
 constexpr uint32_t DecorationBlock = 2;
 constexpr uint32_t DecorationArrayStride = 6;
@@ -158,7 +159,9 @@ class Rewriter {
             break;
         case spv::OpImageFetch: {
             const auto variable = loaded_.find(i[3]);
-            if (variable == loaded_.end() || i.size() != 5)
+            // Texels are unsigned, and glslang says so at each fetch.
+            const bool isPlain = i.size() == 5 || (i.size() == 6 && i[5] == spv::OperandZeroExtend);
+            if (variable == loaded_.end() || !isPlain)
                 refuse("fetches from what is no texel buffer");
             const uint32_t element = next_++;
             append(words, spv::OpAccessChain, {texelPointer_, element, variable->second, zero_, i[4]});
