@@ -13,7 +13,7 @@ LAMPS = (((-0.5, 0.9, 0.9), 24.0, (6.0, 5.8, 5.5)), ((0.6, 0.5, -0.9), 10.0, (6.
 
 
 def direction(row, column):
-    """Of a pixel's centre: the map's middle is +x, its right half holds +z, its top row is +y."""
+    """The direction of a pixel's centre: the map's middle is +x, its right half holds +z, its top row is +y."""
     polar = math.pi * (row + 0.5) / HEIGHT
     azimuth = 2.0 * math.pi * ((column + 0.5) / WIDTH - 0.5)
     return math.sin(polar) * math.cos(azimuth), math.cos(polar), math.sin(polar) * math.sin(azimuth)

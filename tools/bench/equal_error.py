@@ -184,7 +184,7 @@ def bench_scene(scene, renderers, options):
 
 
 def times_to(target, curve):
-    """Of each repeat by itself."""
+    """The times of the repeats to reach the target."""
     return [time_to(target, [p["runs"][repeat] for p in curve]) for repeat in range(len(curve[0]["runs"]))]
 
 
