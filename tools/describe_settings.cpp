@@ -46,11 +46,11 @@ constexpr std::string_view kPresets = R"(
 constexpr std::string_view kTests = R"(
 ## How they are tested
 
-A setting that may not change the mean is held to it: tests/image/estimator_test.cpp renders built-in scenes at each of its named
-values and compares their means with the default's by a Z-test, each tile against the variance that the films measured. The
-values come from the table, so that a new setting is tested as soon as it has a row. `full_product_test` does the same for
-every combination, at night. Both use `--sampler independent`, since the variance of Sobol's correlated samples is not known
-from one image.
+Tests check that a setting which may not change the mean does not change it. tests/image/estimator_test.cpp renders built-in
+scenes at each of its named values. A Z-test compares their means with the default's, each tile against the variance that the
+films measured. The values come from the table, so that a new setting is tested as soon as it has a row. `full_product_test`
+does the same for every combination, at night. Both use `--sampler independent`, since the variance of Sobol's correlated samples
+is not known from one image.
 
 A setting that may change the mean is left out there; what it computes is tested by itself, as `--texture-filter` in
 tests/image/surface_detail_test.cpp and `--multiple-scattering` in tests/gpu/bsdf_test.cpp. The bias ledger of an image names

@@ -59,7 +59,7 @@ constexpr std::array kRows{
                .values = oneOf<&E::sampler>(kSamplers, CONSTANT_SAMPLER),
                .decidesBits = true,
                .mayChangeMean = false,
-               .help = "Sample numbers: Owen-scrambled Sobol, or independent",
+               .help = "Which random numbers samples use: Owen-scrambled Sobol points, or independent ones",
                .panelLabel = "sampler",
                .panelHelp = "Where samples lie: Sobol's points fill each square evenly, independent ones "
                             "clump. Watch the noise of soft shadows"},
@@ -67,7 +67,7 @@ constexpr std::array kRows{
                .values = oneOf<&E::hemisphere>(kHemispheres, CONSTANT_HEMISPHERE),
                .decidesBits = true,
                .mayChangeMean = false,
-               .help = "Directions of diffuse surfaces: by the cosine, or all alike",
+               .help = "How diffuse surfaces draw directions: by the cosine, or uniformly",
                .panelLabel = "hemisphere",
                .panelHelp = "Directions of diffuse surfaces. By the cosine: those that count more come more "
                             "often, and each path has the same weight"},
@@ -85,7 +85,7 @@ constexpr std::array kRows{
                .decidesBits = true,
                .mayChangeMean = false,
                .help = "Which light NEE picks: by power, all alike, or by what each may bring to the point "
-                       "(auto: that where there are several lights, else by power)",
+                       "(auto: by that where there are several lights, else by power)",
                .panelLabel = "light selection",
                .panelHelp = "Which light is asked: by its power, all alike, or by what it may bring to this "
                             "very point (a tree of lights)"},
@@ -98,15 +98,15 @@ constexpr std::array kRows{
                .panelLabel = "MIS",
                .panelHelp = "A light found both by asking and by running into it is weighted by how likely "
                             "each was. Off: only one of the two counts, and mirrors of lamps get fireflies"},
-    SettingRow{.name = "roulette",
-               .values = oneOf<&E::roulette>(kRoulettes, CONSTANT_ROULETTE),
-               .decidesBits = true,
-               .mayChangeMean = false,
-               .help =
-                   "The probability by which a path goes on: of what it carries, of albedo, constant; off: 1",
-               .panelLabel = "roulette",
-               .panelHelp = "A path that carries little is ended by chance; one that survives counts for "
-                            "those that did not. The mean stays"},
+    SettingRow{
+        .name = "roulette",
+        .values = oneOf<&E::roulette>(kRoulettes, CONSTANT_ROULETTE),
+        .decidesBits = true,
+        .mayChangeMean = false,
+        .help = "Probability that a path goes on: by the light it carries, by albedo, constant, or 1 (off)",
+        .panelLabel = "roulette",
+        .panelHelp = "A path that carries little is ended by chance; one that survives counts for "
+                     "those that did not. The mean stays"},
     SettingRow{.name = "roulette-start",
                .values = WholeNumber{&E::rouletteStart, 1, 0x7fffffff, 64},
                .decidesBits = true,
@@ -181,9 +181,9 @@ constexpr std::array kRows{
                .values = WholeNumber{&E::seed, 0, std::numeric_limits<uint32_t>::max(), 1'000'000},
                .decidesBits = true,
                .mayChangeMean = false,
-               .help = "Another seed, other noise",
+               .help = "Another seed gives other noise",
                .panelLabel = "seed",
-               .panelHelp = "Another seed, other noise, the same mean"},
+               .panelHelp = "Another seed gives other noise with the same mean"},
 };
 
 // Every member has a row.

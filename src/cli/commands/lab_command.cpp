@@ -20,7 +20,7 @@ LabCommand::LabCommand(CLI::App& app)
         .add_option("--samples", options_.samples,
                     "Samples of each estimate; 0: as many as the experiment likes")
         ->type_name("N");
-    parser().add_option("--seed", options_.seed, "Another seed, other noise")->type_name("N");
+    parser().add_option("--seed", options_.seed, "Another seed gives other noise")->type_name("N");
     deviceOptions_.emplace(parser());
 }
 
