@@ -79,9 +79,9 @@ void RenderOptions::declareDevice(CLI::App& parser) {
     device_.emplace(parser);
     addNamed(parser, "--schedule", settings_.work.schedule,
              "One kernel for whole paths, or one for each step; auto: by device");
-    // The name that it had before, left out of the help.
+    // The earlier name of --schedule, left out of the help.
     addNamed(parser, "--kernels", settings_.work.schedule, "");
-    parser.get_option("--kernels")->group("")->excludes(parser.get_option("--schedule"));
+    parser.get_option("--kernels")->group("");
     parser
         .add_option("--wave-size", settings_.work.waveSize,
                     "Paths in flight; 0: by the kernels; changes no bit of the image")
@@ -93,6 +93,8 @@ void RenderOptions::declareDevice(CLI::App& parser) {
 }
 
 RenderSettings RenderOptions::settings() const {
+    if (parser_->count("--schedule") > 0 && parser_->count("--kernels") > 0)
+        throw UsageError("--schedule and --kernels: these are one option; give one of the two");
     RenderSettings settings = settings_;
     settings.estimator = preset_.empty() ? EstimatorSettings{} : findPreset(preset_).settings;
     const std::span<const SettingRow> rows = settingRows();
