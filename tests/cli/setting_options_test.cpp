@@ -67,6 +67,10 @@ TEST(SettingOptions, KernelsIsTheOlderNameOfSchedule) {
                      folder.path());
     ASSERT_EQ(result.exitCode, 0) << result.err;
     EXPECT_EQ(nlohmann::json::parse(readFile(folder / "a.json")).at("settings").at("schedule"), "wavefront");
+    const test::ProgramResult both = runLavalight(
+        {"render", "--schedule", "fused", "--kernels", "wavefront", "-o", "b.exr"}, folder.path());
+    EXPECT_EQ(both.exitCode, 2);
+    EXPECT_NE(both.err.find("--kernels"), std::string::npos) << both.err;
 }
 
 } // namespace
