@@ -1,4 +1,5 @@
 // Every option that a command declares is described by its help, and on record with the image that it made.
+#include <fstream>
 #include <map>
 #include <set>
 #include <sstream>
@@ -146,6 +147,7 @@ TEST_F(Options, OfRenderAreOnRecordUnlessTheyAreListedHereWithTheReason) {
     recorded.merge(recordedWith({"--spp", "1", "--panorama", "--env", "image.exr", "--env-rotation", "20"}));
     ASSERT_EQ(runLavalight({"new-experiment", "mine", "lib/sampling/roulette.glsl"}, folder_.path()).exitCode,
               0);
+    std::ofstream(folder_ / "mine/lib/sampling/roulette.glsl", std::ios::app) << "// A change.\n";
     recorded.merge(recordedWith({"--spp", "1", "--shaders", "mine"}));
     writeFileAtomically(folder_ / "changing.glb", changingTriangle().glb());
     recorded.merge(recordedWith(
