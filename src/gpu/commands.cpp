@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -35,6 +36,20 @@ Commands::Commands(Device& device) : device_(&device) {
 Commands::~Commands() {
     if (isRunning_ && *pool_)
         waitUntilIdle();
+}
+
+Commands& Commands::operator=(Commands&& other) noexcept {
+    std::swap(device_, other.device_);
+    std::swap(pool_, other.pool_);
+    std::swap(buffers_, other.buffers_);
+    std::swap(fence_, other.fence_);
+    std::swap(marks_, other.marks_);
+    std::swap(marked_, other.marked_);
+    std::swap(isRunning_, other.isRunning_);
+    std::swap(queries_, other.queries_);
+    std::swap(stamps_, other.stamps_);
+    std::swap(times_, other.times_);
+    return *this;
 }
 
 void Commands::begin() {

@@ -31,7 +31,7 @@ class Commands {
     explicit Commands(Device& device);
     ~Commands(); // waits
     Commands(Commands&&) = default;
-    Commands& operator=(Commands&&) = default;
+    Commands& operator=(Commands&& other) noexcept; // swaps: a command buffer must go before its pool
 
     // Starts recording anew, once what was submitted before is done.
     void begin();
