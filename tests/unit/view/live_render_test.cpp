@@ -115,8 +115,8 @@ TEST_F(LiveRenderTest, PathsAreOfTheSceneThatWasRendered) {
 // A kernel that follows paths serves until settings or shaders change.
 TEST_F(LiveRenderTest, PathsAreOfTheEstimatorAndShadersThatAreShown) {
     const TemporaryFolder folder;
-    std::filesystem::create_directory(folder / "lib");
-    std::string diffuse = readFile(LAVALIGHT_SOURCE_DIR "/shaders/lib/bsdf_diffuse.glsl");
+    std::filesystem::create_directories(folder / "lib/bsdf");
+    std::string diffuse = readFile(LAVALIGHT_SOURCE_DIR "/shaders/lib/bsdf/diffuse.glsl");
     diffuse.insert(diffuse.find("kInvPi * max"), "0.9 * ");
     std::ofstream(folder / "lib/bsdf/diffuse.glsl") << diffuse;
     const LiveRequest plain = requestFor("cornell-box");
@@ -202,7 +202,7 @@ TEST_F(LiveRenderTest, WhatCannotBeRenderedIsToldAndTheImageBeforeGoesOn) {
     render_.show(before);
     (void)waitForImage();
     const TemporaryFolder folder;
-    std::filesystem::create_directory(folder / "lib");
+    std::filesystem::create_directories(folder / "lib/sampling");
     std::ofstream(folder / "lib/sampling/roulette.glsl") << "this is no shader";
     LiveRequest broken = requestFor("veach-mis");
     broken.shaders = std::make_shared<ShaderOverlay>(folder.path());

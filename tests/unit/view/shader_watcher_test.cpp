@@ -19,7 +19,7 @@ namespace {
 class ShaderWatcherTest : public testing::Test {
   protected:
     ShaderWatcherTest() {
-        std::filesystem::create_directory(folder_ / "lib");
+        std::filesystem::create_directories(folder_ / "lib/sampling");
         save(ours_);
         watcher_ = std::make_unique<ShaderWatcher>(
             folder_.path().string(), std::make_shared<ShaderOverlay>(folder_.path()), Schedule::fused, [] {});
