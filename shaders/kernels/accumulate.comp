@@ -11,14 +11,17 @@ vec3 valueIn(uint plane, uint slot) {
     return paths[slot].radiance;
 }
 
+bool isFinite(vec3 value) {
+    return !any(isnan(value)) && !any(isinf(value));
+}
+
 // Samples are whole: NaN or infinity in one plane keeps them out of all.
-bool isFinite(uint slot) {
+bool isWhole(uint slot) {
     bool finite = true;
-    for (uint plane = 0u; plane < kFilmPlaneCount; ++plane)
-        if (filmHas(plane)) {
-            const vec3 value = valueIn(plane, slot);
-            finite = finite && !any(isnan(value)) && !any(isinf(value));
-        }
+#define CHECK_PLANE(number, name, channels, components, isSigned, hasSquares) \
+    if (filmHas(number)) \
+        finite = finite && isFinite(valueIn(number, slot));
+    FILM_PLANES(CHECK_PLANE)
     return finite;
 }
 
@@ -27,7 +30,7 @@ void fill(uint plane, uint firstSlot, uint pixel, inout FilmEvents events) {
     const uint saturatedBefore = saturatedSums(plane, sums);
     uint dropped = 0u;
     for (uint slot = firstSlot; slot < firstSlot + range.sampleCount; ++slot) {
-        if (isFinite(slot))
+        if (isWhole(slot))
             addValue(plane, sums, valueIn(plane, slot), events);
         else
             ++dropped;
@@ -49,10 +52,10 @@ void main() {
     const uint pixel = range.firstPixel - range.bandFirstPixel + index;
     const uint firstSlot = index * range.sampleCount;
     FilmEvents events = FilmEvents(0u, 0u, 0u, 0u);
-    fill(kColorPlane, firstSlot, pixel, events); // apart from the loop, where its number is known to the compiler
-    for (uint plane = kColorPlane + 1u; plane < kFilmPlaneCount; ++plane)
-        if (filmHas(plane))
-            fill(plane, firstSlot, pixel, events);
+#define FILL_PLANE(number, name, channels, components, isSigned, hasSquares) \
+    if (filmHas(number)) \
+        fill(number, firstSlot, pixel, events);
+    FILM_PLANES(FILL_PLANE)
     film[wordAt(countWordOf(kPlanesAsked), pixel)] += range.sampleCount - events.dropped;
     report(kTallyDropped, events.dropped);
     report(kTallyNegative, events.negative);

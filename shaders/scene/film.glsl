@@ -34,44 +34,60 @@ uint wordAt(uint word, uint pixel) {
     return word * frame.bandPixels + pixel;
 }
 
-ComponentSums loadComponent(uint plane, uint component, uint pixel) {
-    const FilmPlane shape = kFilmPlanes[plane];
-    const uint first = firstWordOf(plane, kPlanesAsked) + component * componentWordsOf(shape);
-    ComponentSums sums = ComponentSums(uvec4(0u), uvec4(0u));
-    for (uint word = 0u; word < sumWordsOf(shape); ++word)
-        sums.sum[word] = film[wordAt(first + word, pixel)];
-    if (shape.hasSquares != 0u)
-        for (uint word = 0u; word < kSquareWords; ++word)
-            sums.square[word] = film[wordAt(first + sumWordsOf(shape) + word, pixel)];
-    return sums;
+uvec3 loadThree(uint first, uint pixel) {
+    return uvec3(film[wordAt(first, pixel)], film[wordAt(first + 1u, pixel)], film[wordAt(first + 2u, pixel)]);
 }
 
-void storeComponent(uint plane, uint component, uint pixel, ComponentSums sums) {
-    const FilmPlane shape = kFilmPlanes[plane];
-    const uint first = firstWordOf(plane, kPlanesAsked) + component * componentWordsOf(shape);
-    for (uint word = 0u; word < sumWordsOf(shape); ++word)
-        film[wordAt(first + word, pixel)] = sums.sum[word];
+void storeThree(uint first, uint pixel, uvec3 words) {
+    film[wordAt(first, pixel)] = words.x;
+    film[wordAt(first + 1u, pixel)] = words.y;
+    film[wordAt(first + 2u, pixel)] = words.z;
+}
+
+uvec4 loadFour(uint first, uint pixel) {
+    return uvec4(loadThree(first, pixel), film[wordAt(first + 3u, pixel)]);
+}
+
+void storeFour(uint first, uint pixel, uvec4 words) {
+    storeThree(first, pixel, words.xyz);
+    film[wordAt(first + 3u, pixel)] = words.w;
+}
+
+ComponentSums loadComponent(FilmPlane shape, uint first, uint pixel) {
+    const uint square = first + sumWordsOf(shape);
+    return ComponentSums(shape.isSigned != 0u ? loadFour(first, pixel) : uvec4(loadThree(first, pixel), 0u),
+                         shape.hasSquares != 0u ? loadFour(square, pixel) : uvec4(0u));
+}
+
+void storeComponent(FilmPlane shape, uint first, uint pixel, ComponentSums sums) {
+    if (shape.isSigned != 0u)
+        storeFour(first, pixel, sums.sum);
+    else
+        storeThree(first, pixel, sums.sum.xyz);
     if (shape.hasSquares != 0u)
-        for (uint word = 0u; word < kSquareWords; ++word)
-            film[wordAt(first + sumWordsOf(shape) + word, pixel)] = sums.square[word];
+        storeFour(first + sumWordsOf(shape), pixel, sums.square);
 }
 
 PlaneSums loadSums(uint plane, uint pixel) {
+    const FilmPlane shape = kFilmPlanes[plane];
+    const uint first = firstWordOf(plane, kPlanesAsked);
     PlaneSums sums;
-    sums.x = loadComponent(plane, 0u, pixel);
-    if (kFilmPlanes[plane].components > 1u)
-        sums.y = loadComponent(plane, 1u, pixel);
-    if (kFilmPlanes[plane].components > 2u)
-        sums.z = loadComponent(plane, 2u, pixel);
+    sums.x = loadComponent(shape, first, pixel);
+    if (shape.components > 1u)
+        sums.y = loadComponent(shape, first + componentWordsOf(shape), pixel);
+    if (shape.components > 2u)
+        sums.z = loadComponent(shape, first + 2u * componentWordsOf(shape), pixel);
     return sums;
 }
 
 void storeSums(uint plane, uint pixel, PlaneSums sums) {
-    storeComponent(plane, 0u, pixel, sums.x);
-    if (kFilmPlanes[plane].components > 1u)
-        storeComponent(plane, 1u, pixel, sums.y);
-    if (kFilmPlanes[plane].components > 2u)
-        storeComponent(plane, 2u, pixel, sums.z);
+    const FilmPlane shape = kFilmPlanes[plane];
+    const uint first = firstWordOf(plane, kPlanesAsked);
+    storeComponent(shape, first, pixel, sums.x);
+    if (shape.components > 1u)
+        storeComponent(shape, first + componentWordsOf(shape), pixel, sums.y);
+    if (shape.components > 2u)
+        storeComponent(shape, first + 2u * componentWordsOf(shape), pixel, sums.z);
 }
 
 void addComponent(FilmPlane shape, inout ComponentSums sums, float value, inout FilmEvents events) {

@@ -39,16 +39,17 @@ SHARED_FUNCTION uint wordsOf(FilmPlane plane) {
     return plane.components * componentWordsOf(plane);
 }
 
-// All planes that there are, a row each: name of the layer, channels in EXR files, components, isSigned, hasSquares. A
-// film has the colour and those that were asked for, in this order; shaders/kernels/accumulate.comp says what fills them.
-#define FILM_PLANES(PLANE) \
-    PLANE("color", "R,G,B", 3u, 0u, 1u)
-
-// Numbers of the rows.
+// Numbers of the rows below.
 SHARED_CONST uint kColorPlane = 0u;
 
-#define FILM_PLANE_SHAPE(name, channels, components, isSigned, hasSquares) {components, isSigned, hasSquares},
-#define FILM_PLANE_COUNT(name, channels, components, isSigned, hasSquares) + 1u
+// All planes that there are, a row each in the order of their numbers: number, name of the layer, channels in EXR files,
+// components, isSigned, hasSquares. A film has the colour and those that were asked for, in this order;
+// shaders/kernels/accumulate.comp says what fills them.
+#define FILM_PLANES(PLANE) \
+    PLANE(kColorPlane, "color", "R,G,B", 3u, 0u, 1u)
+
+#define FILM_PLANE_SHAPE(number, name, channels, components, isSigned, hasSquares) {components, isSigned, hasSquares},
+#define FILM_PLANE_COUNT(number, name, channels, components, isSigned, hasSquares) + 1u
 SHARED_CONST FilmPlane kFilmPlanes[] = {FILM_PLANES(FILM_PLANE_SHAPE)};
 SHARED_CONST uint kFilmPlaneCount = 0u FILM_PLANES(FILM_PLANE_COUNT);
 
@@ -56,12 +57,11 @@ SHARED_CONST uint kFilmPlaneCount = 0u FILM_PLANES(FILM_PLANE_COUNT);
 //
 //   R.sum[3] R.square[4]  G.sum[3] G.square[4]  B.sum[3] B.square[4]  ...  count
 //
-// `asked`: a film's planes, bit i for row i.
+// `asked`: a film's planes, bit i for row i. The sum is written out, row by row, since compilers see through no loop here.
 SHARED_FUNCTION uint firstWordOf(uint plane, uint asked) {
-    uint words = 0u;
-    for (uint i = 0u; i < plane; ++i)
-        words += (asked >> i & 1u) != 0u ? wordsOf(kFilmPlanes[i]) : 0u;
-    return words;
+#define FILM_PLANE_WORDS(number, name, channels, components, isSigned, hasSquares) \
+    + (number < plane && (asked >> number & 1u) != 0u ? wordsOf(kFilmPlanes[number]) : 0u)
+    return 0u FILM_PLANES(FILM_PLANE_WORDS);
 }
 
 SHARED_FUNCTION uint countWordOf(uint asked) {

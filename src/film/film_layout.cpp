@@ -35,8 +35,20 @@ std::vector<std::string> channelsOf(std::string_view list) {
     return {names.begin(), names.end()};
 }
 
+// Whether the rows stand in the order of their numbers.
+constexpr bool areInOrder() {
+#define PLANE_NUMBER(number, name, channels, components, isSigned, hasSquares) number,
+    constexpr std::array numbers{FILM_PLANES(PLANE_NUMBER)};
+#undef PLANE_NUMBER
+    for (size_t i = 0; i < numbers.size(); ++i)
+        if (numbers[i] != i)
+            return false;
+    return true;
+}
+static_assert(areInOrder());
+
 const std::vector<LayerPlane>& allPlanes() {
-#define LAYER_PLANE(name, channels, components, isSigned, hasSquares)                                        \
+#define LAYER_PLANE(number, name, channels, components, isSigned, hasSquares)                                \
     {name, channelsOf(channels), {components, isSigned, hasSquares}},
     static const std::vector<LayerPlane> planes{FILM_PLANES(LAYER_PLANE)};
 #undef LAYER_PLANE

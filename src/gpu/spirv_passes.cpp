@@ -44,6 +44,9 @@ std::vector<uint32_t> inlined(const std::vector<uint32_t>& spirv) {
         optimizer.RegisterPass(spvtools::CreateScalarReplacementPass());
         optimizer.RegisterPass(spvtools::CreateLocalAccessChainConvertPass());
         registerMemoryPasses();
+        optimizer.RegisterPass(spvtools::CreateCCPPass()); // arguments that callers gave as constants
+        optimizer.RegisterPass(spvtools::CreateDeadBranchElimPass());
+        optimizer.RegisterPass(spvtools::CreateAggressiveDCEPass());
         optimizer.RegisterPass(spvtools::CreateBlockMergePass());
     });
 }

@@ -15,11 +15,11 @@ struct SpecialisationConstant {
     bool operator==(const SpecialisationConstant&) const = default;
 };
 
-// A kernel with its functions inlined, but for those that return early, and without the loads and stores that
-// this makes needless. Takes a second for the largest kernel, so it is for the build; lavapipe then goes
-// through the code in two fifths to two thirds of the time, and what it makes of it renders as fast. More
-// passes would cost: functions brought to a single return, or values in SSA form, render slower by a tenth
-// (docs/performance.md). Throws Error.
+// A kernel with its functions inlined, but for those that return early, and without the loads, the stores and
+// the branches on constant arguments that this makes needless. Takes a second for the largest kernel, so it
+// is for the build; lavapipe then goes through the code in two fifths to two thirds of the time, and what it
+// makes of it renders as fast. More passes would cost: functions brought to a single return, or values in SSA
+// form, render slower by a tenth (docs/performance.md). Throws Error.
 [[nodiscard]] std::vector<uint32_t> inlined(const std::vector<uint32_t>& spirv);
 
 // SPIR-V whose specialisation constants have those values, without the code that they switch off. Takes 0.1 s

@@ -149,9 +149,9 @@ class SignedLayerTest : public FilmTest {
     static constexpr uint32_t kLean = 1; // the row
     // x - y and -z of the radiance.
     [[nodiscard]] static gpu::KernelCode leaningKernel(bool hasSquares) {
-        const std::string row = R"(PLANE("color", "R,G,B", 3u, 0u, 1u))";
-        const std::string added = hasSquares ? R"( PLANE("lean", "lean.X,lean.Y", 2u, 1u, 1u))"
-                                             : R"( PLANE("lean", "lean.X,lean.Y", 2u, 1u, 0u))";
+        const std::string row = R"(PLANE(kColorPlane, "color", "R,G,B", 3u, 0u, 1u))";
+        const std::string added = hasSquares ? R"( PLANE(1u, "lean", "lean.X,lean.Y", 2u, 1u, 1u))"
+                                             : R"( PLANE(1u, "lean", "lean.X,lean.Y", 2u, 1u, 0u))";
         const std::string fill = "    return paths[slot].radiance;";
         const std::string line = "    if (plane == 1u) return vec3(paths[slot].radiance.x - "
                                  "paths[slot].radiance.y, -paths[slot].radiance.z, 0.0);\n";
