@@ -151,6 +151,11 @@ std::string tablesCsv(std::span<const Table> tables) {
     return text;
 }
 
+EstimatorRow estimatorRow(std::string name, const Moments& moments, const Theory& theory, double cost) {
+    return {std::move(name),    moments.count,   moments.mean, theory.mean, moments.standardError(),
+            moments.variance(), theory.variance, cost,         {}};
+}
+
 Table estimatorTable(std::string name, std::string title, const std::vector<EstimatorRow>& rows,
                      const std::vector<Column>& more) {
     const bool hasTheory =
