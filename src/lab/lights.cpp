@@ -57,7 +57,7 @@ Table spheres(gpu::Device& device, const LabOptions& options) {
 }
 
 Table scene(gpu::Device& device, uint32_t seed) {
-    const RenderBench bench(device, "large-small-light", 48);
+    RenderBench bench(device, "large-small-light", 48);
     RenderTable rows(bench, 128);
     EstimatorSettings estimator = independentSettings(seed);
     estimator.mis = Mis::off;

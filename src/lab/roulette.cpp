@@ -58,7 +58,7 @@ Table box(gpu::Device& device, const LabOptions& options) {
                                          {"max-albedo", Roulette::maxAlbedo},
                                          {"throughput", Roulette::throughput},
                                          {"sqrt-throughput", Roulette::sqrtThroughput}}};
-    const RenderBench bench(device, "cornell-box", kRouletteImageHeight);
+    RenderBench bench(device, "cornell-box", kRouletteImageHeight);
     RenderTable rows(bench, static_cast<uint32_t>(options.samples));
     EstimatorSettings estimator = independentSettings(options.seed);
     estimator.rouletteStart = 1; // from the first vertex on, as in the lecture

@@ -32,6 +32,9 @@ struct Table {
     std::vector<std::string> notes; // what the rows show
 };
 
+// Monostate where there is no value.
+[[nodiscard]] Cell cellOf(const std::optional<double>& value);
+
 [[nodiscard]] std::string tableText(const Table& table);
 // {"name", "title", "columns": [{"key", "heading"}], "rows": [{key: value}], "notes"}; a cell without value
 // is null.

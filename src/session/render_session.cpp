@@ -37,10 +37,15 @@ void RenderSession::use(const std::shared_ptr<ShaderOverlay>& overlay) {
     source_ = sourceOf(overlay);
 }
 
+void RenderSession::use(RenderSettings settings) {
+    settings.provenance.changedShaders = std::move(plan_.settings.provenance.changedShaders);
+    plan_.settings = std::move(settings);
+}
+
 // The first scene of an animation speaks for all: its warnings, its stand-in camera, its image's size.
 PreparedScene RenderSession::load(const ImportOptions& moment) {
     Scene scene = loadScene(plan_, moment);
-    if (!device_)
+    if (!std::exchange(isWarned_, true))
         logWarnings(scene);
     const Camera camera = standIn_ ? *standIn_ : chooseCamera(scene, plan_.camera);
     if (!scene.hasOwnCamera)
@@ -66,9 +71,9 @@ RenderJob RenderSession::prepare(const ImportOptions& moment, const Outputs& out
     job.report.import = moment;
     job.report.camera = prepared.camera.name;
     job.watch.lap("load");
-    if (!device_)
-        device_.emplace(plan_.device);
-    job.device = &*device_;
+    if (device_ == nullptr)
+        device_ = &ownDevice_.emplace(plan_.device);
+    job.device = device_;
     job.watch.lap("device");
     job.renderer = makeRenderer(prepared);
     if (!outputs.png.empty() && !toneMapper_)

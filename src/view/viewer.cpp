@@ -11,6 +11,7 @@
 
 #include "base/log.h"
 #include "image/environment_file.h"
+#include "render/phase.h"
 #include "render/renderer.h"
 #include "session/lit_scene.h"
 #include "view/controls.h"
@@ -56,7 +57,7 @@ Viewer::Viewer(ViewerConfig config)
       shaders_(std::move(config.shaders)) {
     view_.settings = resolveSchedule(view_.settings, render_.device().isCpu);
     if (!config.watched.empty())
-        watcher_.emplace(config.watched, shaders_, view_.settings.work.schedule, &Window::wake);
+        watcher_.emplace(config.watched, shaders_, kernelNames(view_.settings), &Window::wake);
     ImGui::GetIO().FontGlobalScale = window_.textScale() / window_.pixelsPerPoint().y;
 }
 
@@ -274,7 +275,7 @@ void Viewer::send() {
     if (inspection_ && (!sent_ || restartsImage(*sent_, request) != Restart::nothing))
         inspection_.reset(); // it was of another image
     if (watcher_)
-        watcher_->use(request.settings.work.schedule);
+        watcher_->use(kernelNames(request.settings));
     sent_ = request;
     isReady_ = false;
     render_.show(request);
