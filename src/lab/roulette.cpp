@@ -25,8 +25,7 @@ EstimatorRow rowOf(const std::string& name, uint32_t kind, double survival, cons
     run.a.y = static_cast<float>(survival);
     const Moments m = kernel.estimate(run, kRouletteSamples);
     const Theory theory = rouletteRays(kRays, kWatts, survival);
-    EstimatorRow row{name,         m.count,         m.mean, theory.mean, m.standardError(),
-                     m.variance(), theory.variance, 1.0,    {}};
+    EstimatorRow row = estimatorRow(name, m, theory);
     if (kind == kRouletteForgot)
         row.theory = theory.variance * survival * survival;
     row.more = {kRays * survival};

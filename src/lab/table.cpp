@@ -151,6 +151,11 @@ std::string tablesCsv(std::span<const Table> tables) {
     return text;
 }
 
+EstimatorRow estimatorRow(std::string name, const Moments& moments, const Theory& theory, double cost) {
+    return {std::move(name),    moments.count,   moments.mean, theory.mean, moments.standardError(),
+            moments.variance(), theory.variance, cost,         {}};
+}
+
 Cell cellOf(const std::optional<double>& value) {
     return value ? Cell(*value) : Cell();
 }

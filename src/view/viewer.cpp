@@ -10,6 +10,7 @@
 #include <imgui.h>
 
 #include "base/log.h"
+#include "image/environment_file.h"
 #include "render/phase.h"
 #include "render/renderer.h"
 #include "session/lit_scene.h"
@@ -46,11 +47,6 @@ std::string freeName(const std::string& source) {
 
 Scene loadOrder(const SceneOrder& order) {
     return loadLitScene(order.source, order.import, order.lighting);
-}
-
-bool isEnvironment(const std::string& path) {
-    const std::string extension = std::filesystem::path(path).extension().string();
-    return extension == ".hdr" || extension == ".exr" || extension == ".pic";
 }
 
 } // namespace
@@ -197,7 +193,7 @@ void Viewer::takeKeys() {
 
 void Viewer::takeDrops() {
     for (const std::string& path : window_.takeDrops()) {
-        if (isEnvironment(path)) {
+        if (hasEnvironmentExtension(path)) {
             view_.settings.lighting.mapFile = path;
             view_.settings.lighting.constant.reset();
             reload();
