@@ -14,8 +14,8 @@
 namespace lavalight::test {
 namespace {
 
-// A scene, samples (see expectOneMean; BrokenEstimatorTest shows that 1024 notice 5 % of the direct light), and the share of its tiles that at least must count for each variant,
-// or the test would say nothing.
+// A scene, samples (see expectOneMean; BrokenEstimatorTest shows that 1024 notice 5 % of the direct light),
+// and the share of its tiles that at least must count for each variant, or the test would say nothing.
 struct Subject {
     const char* name;
     uint32_t samples;
