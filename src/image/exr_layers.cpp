@@ -54,7 +54,8 @@ Names inOrder(const std::string& layer, const Names& channels) {
 bool mayBeLayer(const ExrChannel& channel) {
     const bool isColor =
         channel.name == "R" || channel.name == "G" || channel.name == "B" || channel.name == kLuminance;
-    return !isColor && channel.isFloat && channel.hasAllPixels && !channel.name.starts_with(kVariance);
+    const bool isNumber = channel.isFloat || channel.name == "A"; // opacity in whole numbers is 0 or 1
+    return !isColor && isNumber && channel.hasAllPixels && !channel.name.starts_with(kVariance);
 }
 
 } // namespace
