@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "gltf/import_options.h"
 #include "scene/scene.h"
@@ -20,5 +21,9 @@ namespace lavalight {
 // Imports a file that is in memory; it cannot refer to other files. `name` stands for the file in messages.
 [[nodiscard]] Scene importGltf(const std::string& name, std::string_view bytes,
                                const ImportOptions& options = {});
+
+// The files that the URIs of a file may mean, whether used, readable or there at all; none of them is read.
+// None for what is no glTF file, which importGltf tells.
+[[nodiscard]] std::vector<std::filesystem::path> referencedFiles(const std::filesystem::path& gltf);
 
 } // namespace lavalight

@@ -213,9 +213,11 @@ TEST_F(RenderRefusal, OutputsThatCannotBeWritten) {
     expectRefusal({"-o", "none/out.exr"}, kFailed, "none/out.exr");
     expectRefusal({"--png", "none/out.png"}, kFailed, "none/out.png");
     expectRefusal({"--report", "none/out.json"}, kFailed, "none/out.json");
-    expectRefusal({"-o", "."}, kFailed, "directory");
-    expectRefusal({"-o", "/dev/null"}, kFailed, "/dev/null");
-    expectRefusal({"-o", "same", "--png", "same"}, kWrongUsage, "same");
+    std::filesystem::create_directory(folder_ / "folder.exr");
+    std::filesystem::create_symlink("/dev/null", folder_ / "null.exr");
+    expectRefusal({"-o", "folder.exr"}, kFailed, "directory");
+    expectRefusal({"-o", "null.exr"}, kFailed, "not a regular file");
+    expectRefusal({"-o", "same.exr", "--report", "same.exr"}, kWrongUsage, "same.exr");
 }
 
 } // namespace
