@@ -147,6 +147,9 @@ enum class PunctualKind { point, spot, directional };
 struct PunctualLight {
     std::string name;
     PunctualKind kind = PunctualKind::point;
+// Light that reaches everything.
+constexpr float kNoRange = std::numeric_limits<float>::infinity();
+
     glm::vec3 position{0.0f};
     glm::vec3 direction{0.0f, 0.0f, -1.0f}; // unit length, the way it shines
     glm::vec3 intensity{1.0f};              // W/sr; directional: W/m^2
@@ -158,6 +161,7 @@ struct PunctualLight {
 struct Animation {
     std::string name;
     float seconds = 0.0f; // the time of its last key
+    float range = kNoRange; // point and spot, metres: KHR_lights_punctual's window ends the light there
 };
 
 struct Bounds {

@@ -105,6 +105,8 @@ std::string listText(const std::vector<std::string>& names) {
 }
 
 std::string materialText(const Material& material) {
+    if (light.range < kNoRange)
+        text += fmt::format(", range {:.6g} m", light.range);
     std::string text = fmt::format("\"{}\": {}", material.name, listText(lobeNames(material)));
     if (material.alphaMode != AlphaMode::opaque)
         text += fmt::format("; alpha {}", alphaModeName(material.alphaMode));
@@ -207,6 +209,8 @@ nlohmann::ordered_json materialsJson(const Scene& scene) {
 }
 
 nlohmann::ordered_json sceneJson(const Scene& scene) {
+    if (light.range < kNoRange)
+        json["range"] = light.range;
     nlohmann::ordered_json cameras = nlohmann::ordered_json::array();
     for (const Camera& camera : scene.cameras)
         cameras.push_back(cameraJson(camera));
