@@ -14,7 +14,12 @@ void moveOnLens(FrameParameters frame, vec2 lens, inout vec3 origin, vec3 throug
     direction = normalize(frame.focusDistance * throughMiddle - onLens);
 }
 
-// `position` in pixels from the top left corner of the image; `lens`: random, for a point on the lens.
+// Where a camera ray ends: on the far plane, if there is one (glTF 2.0, 3.10.3).
+float cameraRayEnd(FrameParameters frame, vec3 direction) {
+    return frame.clipDepth > 0.0 ? frame.clipDepth / dot(direction, frame.cameraForward) : kInfinity;
+}
+
+// The ray starts on the near plane. `position` in pixels from the top left corner of the image; `lens`: random, for a point on the lens.
 Ray cameraRay(FrameParameters frame, vec2 position, vec2 lens) {
     const vec2 uv = position / vec2(frame.imageWidth, frame.imageHeight);
     const vec2 ndc = 2.0 * uv - 1.0;
@@ -29,5 +34,7 @@ Ray cameraRay(FrameParameters frame, vec2 position, vec2 lens) {
         direction = equirectangularToDirection(uv);
     if (sceneHas(kFeatureLens))
         moveOnLens(frame, lens, origin, frame.cameraForward + onPlane, direction);
+    if (frame.clipNear > 0.0)
+        origin += direction * (frame.clipNear / dot(direction, frame.cameraForward));
     return Ray(origin, kNoSurface, direction, 0.0, 0u, InteriorList(0u, 0u, 0u));
 }

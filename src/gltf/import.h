@@ -11,7 +11,7 @@
 
 namespace lavalight {
 
-// The default scene of a .gltf or .glb file, told apart by content. What the importer does not understand is
+// A scene of a .gltf or .glb file, told apart by content. What the importer does not understand is
 // named in Scene::warnings; a scene without any light gets a constant white environment, one without a camera
 // gets one that frames it. Throws Error, in one line with the file's name, for what cannot be read: a missing
 // or damaged file, data out of range, a buffer outside the file's folder unless that is allowed, a required

@@ -67,6 +67,7 @@ Camera makeCamera() {
     camera.forward = glm::normalize(glm::vec3(0.0f, -0.4f, -1.0f));
     camera.up = glm::normalize(glm::cross(camera.right, camera.forward));
     camera.aspect = 1.0f;
+    camera.framedAspect = 1.0f;
     return camera;
 }
 
