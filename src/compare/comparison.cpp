@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <utility>
 
 #include <fmt/format.h>
@@ -164,22 +165,34 @@ struct LayerPair {
     const Layer* reference;
 };
 
-// The layers that both have besides the colour, and alpha where either has it: beside `opaque`, which is
-// filled for that.
-std::vector<LayerPair> pairsOf(const Rendering& image, const Rendering& reference, Layer& opaque) {
+// Whether `layer` is the opacity of something that is in `other`, where nothing is said of that.
+bool lacksAlphaOf(const Rendering& other, const Layer& layer) {
+    if (other.find(layer.name) != nullptr)
+        return false;
+    return layer.name == kAlphaLayer ||
+           (layer.name.ends_with(".A") && other.find(layer.name.substr(0, layer.name.size() - 2)) != nullptr);
+}
+
+Layer opaqueAs(const Layer& alpha) {
+    Layer opaque{alpha.name, alpha.channels, Image(alpha.mean.width, alpha.mean.height), std::nullopt};
+    for (glm::vec3& pixel : opaque.mean.pixels)
+        pixel.x = 1.0f;
+    return opaque;
+}
+
+// The layers that both have besides the colour, and alpha where either has it, beside one of `opaques`.
+std::vector<LayerPair> pairsOf(const Rendering& image, const Rendering& reference,
+                               std::deque<Layer>& opaques) {
     std::vector<LayerPair> pairs;
     for (const Layer& layer : image.layers)
         if (const Layer* other = reference.find(layer.name); other != nullptr && layer.name != kColorLayer)
             pairs.push_back({&layer, other});
-    const Layer* alpha = image.find(kAlphaLayer);
-    const Layer* referenceAlpha = reference.find(kAlphaLayer);
-    if ((alpha == nullptr) == (referenceAlpha == nullptr))
-        return pairs;
-    opaque = alphaLayer(Image(image.radiance().width, image.radiance().height));
-    for (glm::vec3& pixel : opaque.mean.pixels)
-        pixel.x = 1.0f;
-    pairs.push_back(
-        {alpha == nullptr ? &opaque : alpha, referenceAlpha == nullptr ? &opaque : referenceAlpha});
+    for (const Layer& alpha : image.layers)
+        if (lacksAlphaOf(reference, alpha))
+            pairs.push_back({&alpha, &opaques.emplace_back(opaqueAs(alpha))});
+    for (const Layer& alpha : reference.layers)
+        if (lacksAlphaOf(image, alpha))
+            pairs.push_back({&opaques.emplace_back(opaqueAs(alpha)), &alpha});
     return pairs;
 }
 
@@ -240,8 +253,8 @@ Comparison compare(const ComparedImage& image, const ComparedImage& reference, c
                               estimateOf(reference.content.layers.front(), reference.content.sampleCounts));
     const Criteria asked = completed(criteria, image, reference);
     result.verdicts = judge(result, asked, a, b);
-    Layer opaque;
-    for (const LayerPair& pair : pairsOf(image.content, reference.content, opaque)) {
+    std::deque<Layer> opaques;
+    for (const LayerPair& pair : pairsOf(image.content, reference.content, opaques)) {
         result.layers.push_back(compareLayers(estimateOf(*pair.image, image.content.sampleCounts),
                                               estimateOf(*pair.reference, reference.content.sampleCounts),
                                               *pair.image));

@@ -35,7 +35,8 @@ struct Criteria {
     std::optional<double> significance; // how often the Z-test may take equal renders for different ones
 };
 
-// The layer of opacity. An image without one is opaque, beside an image that has it.
+// The layer of opacity; that of another layer bears its name and ".A". An image without one is opaque, beside
+// an image that has it.
 inline constexpr const char* kAlphaLayer = "A";
 
 inline constexpr const char* kChannelNames = "RGB";

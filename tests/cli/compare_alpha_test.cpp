@@ -87,6 +87,26 @@ TEST_F(CompareAlpha, FileWithoutAlphaIsOpaque) {
     EXPECT_FALSE(json::parse(compare({"plain.exr", "plain.exr", "--json"}).out).contains("layers"));
 }
 
+TEST_F(CompareAlpha, LayersOfColourHaveOneToo) {
+    const auto write = [&](const char* name, bool hasAlpha) {
+        Image half(kSide, kSide);
+        for (glm::vec3& pixel : half.pixels)
+            pixel = glm::vec3(0.5f);
+        Rendering rendering(half, std::nullopt, std::vector<uint32_t>(half.pixels.size(), 1));
+        rendering.layers.push_back({"glow", {"glow.R", "glow.G", "glow.B"}, half, std::nullopt});
+        if (hasAlpha)
+            rendering.layers.push_back({"glow.A", {"glow.A"}, half, std::nullopt});
+        writeExr(folder_ / name, rendering, {});
+    };
+    write("with.exr", true);
+    write("without.exr", false);
+    EXPECT_EQ(compare({"with.exr", "with.exr"}).exitCode, 0);
+    EXPECT_EQ(compare({"without.exr", "without.exr"}).exitCode, 0);
+    const ProgramResult result = compare({"with.exr", "without.exr"});
+    EXPECT_EQ(result.exitCode, 1) << result.out;
+    EXPECT_NE(result.out.find("relMSE of glow.A"), std::string::npos) << result.out;
+}
+
 TEST_F(CompareAlpha, PixelThatDiffersMostIsNamed) {
     std::vector<float> hole = kOpaque;
     for (int x = 3; x < 8; ++x)

@@ -138,9 +138,9 @@ TEST_F(RenderRefusal, ToneCurvesThatThereAreNotOrThatNothingIsShownBy) {
     expectRefusal({"--png", "out.png", "--tonemap", "filmic"}, kWrongUsage,
                   "filmic not in {aces,agx,linear,neutral}");
     expectRefusal({"--tonemap", "agx"}, kWrongUsage, "--tonemap");
-    expectRefusal({"--exposure", "1", "-o", "out.exr"}, kWrongUsage, "--png");
-    expectRefusal({"--tonemap", "linear", "-o", "out.exr"}, kWrongUsage, "--png");
-    expectRefusal({"--tonemap", "agx", "-o", "out.exr", "--frames", "0:2"}, kWrongUsage, "--png");
+    expectRefusal({"--exposure", "1", "-o", "out.exr"}, kWrongUsage, "-o OUT.png");
+    expectRefusal({"--tonemap", "linear", "-o", "out.exr"}, kWrongUsage, "-o OUT.png");
+    expectRefusal({"--tonemap", "agx", "-o", "out.exr", "--frames", "0:2"}, kWrongUsage, "-o OUT.png");
 }
 
 TEST_F(RenderRefusal, OptionValuesOutOfRange) {

@@ -246,10 +246,12 @@ TEST_F(LightTest, LampsWithRangesBringTheSumOfTheirWindows) {
         SampleSums sums;
         for (const Answer& answer : sample(scene, glm::vec3(0.0f), selection)) {
             const auto& lamp = scene.punctualLights.at(answer.light);
-            if (answer.pmf > 0.0f && glm::length(lamp.position) >= lamp.range)
+            if (answer.pmf > 0.0f && glm::length(lamp.position) >= lamp.range) {
                 ASSERT_EQ(answer.radiance, glm::vec3(0.0f)) << "light " << answer.light;
-            if (selection == LightSelection::tree && answer.pmf > 0.0f)
+            }
+            if (selection == LightSelection::tree && answer.pmf > 0.0f) {
                 ASSERT_EQ(answer.pmf, answer.evaluatedPmf);
+            }
             sums.add(answer);
         }
         EXPECT_NEAR(sums.mean(), expected, 4.0 * std::sqrt(sums.variance() / kSamples));

@@ -46,11 +46,10 @@ std::string ShaderOptions::folder() const {
 }
 
 void ShaderOptions::addFiles(InputFiles& inputs) const {
-    const std::string where = folder();
-    if (where.empty())
+    if (folder_.empty() && !(isWatching_ && isInSourceTree()))
         return;
     std::error_code ended; // a folder that cannot be read is told of by overlay()
-    for (std::filesystem::recursive_directory_iterator entry(where, ended), end; !ended && entry != end;
+    for (std::filesystem::recursive_directory_iterator entry(folder(), ended), end; !ended && entry != end;
          entry.increment(ended))
         inputs.add(entry->path(), "one of the shaders");
 }
