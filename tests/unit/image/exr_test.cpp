@@ -238,18 +238,6 @@ TEST(Exr, LayersOfOtherProgramsAreThoseOfUpToThreeChannels) {
     EXPECT_FALSE(file.find("A")->variance.has_value());
 }
 
-TEST(Exr, AlphaOfALayerIsALayer) {
-    const TemporaryFolder folder;
-    writeForeign(folder / "image.exr",
-                 {{"A", "B", "G", "R", "glow.A", "glow.B", "glow.G", "glow.R", "mist.A", "mist.Z"}});
-    const ExrFile file = readExr(folder / "image.exr");
-    std::vector<std::string> names;
-    for (const Layer& layer : file.layers)
-        names.push_back(layer.name);
-    EXPECT_EQ(names, (std::vector<std::string>{"color", "A", "glow", "glow.A", "mist"}));
-    EXPECT_EQ(file.find("glow")->channels, (std::vector<std::string>{"glow.R", "glow.G", "glow.B"}));
-}
-
 TEST(Exr, LuminanceAloneIsGrey) {
     const TemporaryFolder folder;
     writeForeign(folder / "image.exr", {{"A", "Y"}});
