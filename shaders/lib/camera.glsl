@@ -7,34 +7,35 @@
 
 // A point of the lens sees the point of the plane in focus that its middle would see: Cook, Porter, Carpenter,
 // "Distributed Ray Tracing", 1984. `throughMiddle` reaches the plane at distance 1 from the camera.
-void moveOnLens(FrameParameters frame, vec2 lens, inout vec3 origin, vec3 throughMiddle, out vec3 direction) {
-    const vec2 p = frame.lensRadius * squareToDisk(lens);
-    const vec3 onLens = p.x * normalize(frame.cameraRight) + p.y * normalize(frame.cameraUp);
+void moveOnLens(FrameParameters parameters, vec2 lens, inout vec3 origin, vec3 throughMiddle, out vec3 direction) {
+    const vec2 p = parameters.lensRadius * squareToDisk(lens);
+    const vec3 onLens = p.x * normalize(parameters.cameraRight) + p.y * normalize(parameters.cameraUp);
     origin += onLens;
-    direction = normalize(frame.focusDistance * throughMiddle - onLens);
+    direction = normalize(parameters.focusDistance * throughMiddle - onLens);
 }
 
 // Where a camera ray ends: on the far plane, if there is one (glTF 2.0, 3.10.3).
-float cameraRayEnd(FrameParameters frame, vec3 direction) {
-    return frame.clipDepth > 0.0 ? frame.clipDepth / dot(direction, frame.cameraForward) : kInfinity;
+float cameraRayEnd(FrameParameters parameters, vec3 direction) {
+    return parameters.clipDepth > 0.0 ? parameters.clipDepth / dot(direction, parameters.cameraForward) : kInfinity;
 }
 
-// The ray starts on the near plane. `position` in pixels from the top left corner of the image; `lens`: random, for a point on the lens.
-Ray cameraRay(FrameParameters frame, vec2 position, vec2 lens) {
-    const vec2 uv = position / vec2(frame.imageWidth, frame.imageHeight);
+// The ray starts on the near plane. `position` in pixels from the top left corner of the image; `lens`: random, for a point
+// on the lens.
+Ray cameraRay(FrameParameters parameters, vec2 position, vec2 lens) {
+    const vec2 uv = position / vec2(parameters.imageWidth, parameters.imageHeight);
     const vec2 ndc = 2.0 * uv - 1.0;
-    const vec3 onPlane = ndc.x * frame.cameraRight - ndc.y * frame.cameraUp;
-    vec3 origin = frame.cameraPosition;
-    vec3 direction = normalize(frame.cameraForward + onPlane);
+    const vec3 onPlane = ndc.x * parameters.cameraRight - ndc.y * parameters.cameraUp;
+    vec3 origin = parameters.cameraPosition;
+    vec3 direction = normalize(parameters.cameraForward + onPlane);
     if (sceneHas(kFeatureOrthographic)) {
         origin += onPlane;
-        direction = frame.cameraForward;
+        direction = parameters.cameraForward;
     }
     if (sceneHas(kFeaturePanorama))
         direction = equirectangularToDirection(uv);
     if (sceneHas(kFeatureLens))
-        moveOnLens(frame, lens, origin, frame.cameraForward + onPlane, direction);
-    if (frame.clipNear > 0.0)
-        origin += direction * (frame.clipNear / dot(direction, frame.cameraForward));
+        moveOnLens(parameters, lens, origin, parameters.cameraForward + onPlane, direction);
+    if (parameters.clipNear > 0.0)
+        origin += direction * (parameters.clipNear / dot(direction, parameters.cameraForward));
     return Ray(origin, kNoSurface, direction, 0.0, 0u, InteriorList(0u, 0u, 0u));
 }

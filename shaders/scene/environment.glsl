@@ -11,14 +11,14 @@ layout(set = 0, binding = BINDING_ENVIRONMENT_MAP) uniform utextureBuffer enviro
 layout(set = 0, binding = BINDING_ENVIRONMENT_TABLE) uniform utextureBuffer environmentQuads; // light/environment.h
 
 // The map turned by --env-rotation: what was in direction phi is in direction phi - rotation then.
-vec2 environmentPoint(FrameParameters frame, vec3 wi) {
+vec2 environmentPoint(FrameParameters parameters, vec3 wi) {
     vec2 uv = directionToEquirectangular(wi);
-    uv.x = fract(uv.x + frame.environmentRotation);
+    uv.x = fract(uv.x + parameters.environmentRotation);
     return uv;
 }
 
-vec4 fetchEnvironment(FrameParameters frame, uvec2 texel) {
-    return uintBitsToFloat(texelFetch(environmentMap, int(texel.y * frame.environmentWidth + texel.x)));
+vec4 fetchEnvironment(FrameParameters parameters, uvec2 texel) {
+    return uintBitsToFloat(texelFetch(environmentMap, int(texel.y * parameters.environmentWidth + texel.x)));
 }
 
 // The corners of a cell (light/environment.h).
@@ -30,12 +30,13 @@ struct EnvironmentCell {
     float scale; // factor of the density
 };
 
-EnvironmentCell fetchEnvironmentCell(FrameParameters frame, uvec2 cell) {
-    const uint left = (cell.x == 0u ? frame.environmentWidth : cell.x) - 1u;
+EnvironmentCell fetchEnvironmentCell(FrameParameters parameters, uvec2 cell) {
+    const uint left = (cell.x == 0u ? parameters.environmentWidth : cell.x) - 1u;
     const uint above = max(cell.y, 1u) - 1u;
-    const vec4 last = fetchEnvironment(frame, cell);
-    return EnvironmentCell(fetchEnvironment(frame, uvec2(left, above)).xyz, fetchEnvironment(frame, uvec2(cell.x, above)).xyz,
-                           fetchEnvironment(frame, uvec2(left, cell.y)).xyz, last.xyz, last.w);
+    const vec4 last = fetchEnvironment(parameters, cell);
+    return EnvironmentCell(fetchEnvironment(parameters, uvec2(left, above)).xyz,
+                           fetchEnvironment(parameters, uvec2(cell.x, above)).xyz,
+                           fetchEnvironment(parameters, uvec2(left, cell.y)).xyz, last.xyz, last.w);
 }
 
 vec3 interpolated(EnvironmentCell cell, vec2 place) {
@@ -47,8 +48,8 @@ float environmentDensity(EnvironmentCell cell, vec2 place) {
 }
 
 // The parallels v that bound a row of cells.
-vec2 environmentRow(FrameParameters frame, uint row) {
-    return clamp((vec2(row) + vec2(-0.5, 0.5)) / float(frame.environmentHeight), 0.0, 1.0);
+vec2 environmentRow(FrameParameters parameters, uint row) {
+    return clamp((vec2(row) + vec2(-0.5, 0.5)) / float(parameters.environmentHeight), 0.0, 1.0);
 }
 
 // A cell, and a place in it by u and v.
@@ -57,28 +58,28 @@ struct EnvironmentPlace {
     vec2 place;
 };
 
-EnvironmentPlace environmentPlace(FrameParameters frame, vec2 uv) {
-    const vec2 p = uv * vec2(frame.environmentWidth, frame.environmentHeight) + 0.5;
-    const uvec2 cell = min(uvec2(p), uvec2(frame.environmentWidth, frame.environmentHeight));
-    return EnvironmentPlace(uvec2(cell.x % frame.environmentWidth, cell.y), p - vec2(cell));
+EnvironmentPlace environmentPlace(FrameParameters parameters, vec2 uv) {
+    const vec2 p = uv * vec2(parameters.environmentWidth, parameters.environmentHeight) + 0.5;
+    const uvec2 cell = min(uvec2(p), uvec2(parameters.environmentWidth, parameters.environmentHeight));
+    return EnvironmentPlace(uvec2(cell.x % parameters.environmentWidth, cell.y), p - vec2(cell));
 }
 
-vec3 environmentRadiance(FrameParameters frame, vec3 wi) {
+vec3 environmentRadiance(FrameParameters parameters, vec3 wi) {
     if (!sceneHas(kFeatureEnvironmentMap))
-        return frame.environment;
-    const EnvironmentPlace p = environmentPlace(frame, environmentPoint(frame, wi));
-    return frame.environment * interpolated(fetchEnvironmentCell(frame, p.cell), p.place);
+        return parameters.environment;
+    const EnvironmentPlace p = environmentPlace(parameters, environmentPoint(parameters, wi));
+    return parameters.environment * interpolated(fetchEnvironmentCell(parameters, p.cell), p.place);
 }
 
 // A constant environment is sampled by the cosine around the receiver's normal, which leaves a diffuse surface no variance
 // but that of visibility; what comes from behind is left to BSDF rays. cosTheta: between normal and direction.
-float environmentPdf(FrameParameters frame, vec3 wi, float cosTheta) {
+float environmentPdf(FrameParameters parameters, vec3 wi, float cosTheta) {
     if (!sceneHas(kFeatureEnvironmentMap))
         return squareToCosineHemispherePdf(cosTheta);
-    const vec2 uv = environmentPoint(frame, wi);
-    EnvironmentPlace p = environmentPlace(frame, uv);
-    p.place.y = equirectangularRowToUnit(uv.y, environmentRow(frame, p.cell.y));
-    return environmentDensity(fetchEnvironmentCell(frame, p.cell), p.place);
+    const vec2 uv = environmentPoint(parameters, wi);
+    EnvironmentPlace p = environmentPlace(parameters, uv);
+    p.place.y = equirectangularRowToUnit(uv.y, environmentRow(parameters, p.cell.y));
+    return environmentDensity(fetchEnvironmentCell(parameters, p.cell), p.place);
 }
 
 const float kLargestPlaceInCell = 1.0 - 5.9604644775390625e-8; // 1 - 2^-24
@@ -90,11 +91,11 @@ bool isSecond(float p, inout float u) {
     return second;
 }
 
-EnvironmentPlace pickEnvironmentCell(FrameParameters frame, vec2 u) {
-    const uvec2 cells = uvec2(frame.environmentWidth, frame.environmentHeight + 1u);
+EnvironmentPlace pickEnvironmentCell(FrameParameters parameters, vec2 u) {
+    const uvec2 cells = uvec2(parameters.environmentWidth, parameters.environmentHeight + 1u);
     EnvironmentPlace pick = EnvironmentPlace(uvec2(0u), u);
     uint start = 0u;
-    const float levels = uintBitsToFloat(texelFetch(environmentQuads, 0).w); // by the frame alone, lavapipe would unroll it
+    const float levels = uintBitsToFloat(texelFetch(environmentQuads, 0).w); // by a parameter alone, lavapipe would unroll it
     for (int level = int(levels) - 1; level >= 0; --level) {
         const uvec2 quads = (cells + (2u << level) - 1u) >> (level + 1);
         const vec3 quad =
@@ -116,34 +117,35 @@ vec2 squareToEnvironmentCell(vec2 u, EnvironmentCell cell) {
     return vec2(unitToLinear(u.x, row.x, row.y), y);
 }
 
-LightSample sampleEnvironmentMap(FrameParameters frame, vec2 u) {
-    const EnvironmentPlace pick = pickEnvironmentCell(frame, u);
-    const EnvironmentCell cell = fetchEnvironmentCell(frame, pick.cell);
+LightSample sampleEnvironmentMap(FrameParameters parameters, vec2 u) {
+    const EnvironmentPlace pick = pickEnvironmentCell(parameters, u);
+    const EnvironmentCell cell = fetchEnvironmentCell(parameters, pick.cell);
     const vec2 place = squareToEnvironmentCell(pick.place, cell);
-    const float column = (float(pick.cell.x) - 0.5 + place.x) / float(frame.environmentWidth);
+    const float column = (float(pick.cell.x) - 0.5 + place.x) / float(parameters.environmentWidth);
     LightSample light = kNoLightSample;
-    light.wi = unitToEquirectangularRow(column - frame.environmentRotation, place.y, environmentRow(frame, pick.cell.y));
-    light.radiance = environmentRadiance(frame, light.wi);
+    light.wi = unitToEquirectangularRow(column - parameters.environmentRotation, place.y,
+                                        environmentRow(parameters, pick.cell.y));
+    light.radiance = environmentRadiance(parameters, light.wi);
     light.pdf = environmentDensity(cell, place);
     return light;
 }
 
-LightSample sampleConstantEnvironment(FrameParameters frame, vec3 n, vec2 u) {
+LightSample sampleConstantEnvironment(FrameParameters parameters, vec3 n, vec2 u) {
     const vec3 local = squareToCosineHemisphere(u);
     LightSample light = kNoLightSample;
     light.wi = toWorld(makeBasis(n), local);
-    light.radiance = frame.environment;
+    light.radiance = parameters.environment;
     light.pdf = squareToCosineHemispherePdf(local.z);
     return light;
 }
 
 // `reach`: a distance beyond the scene.
-LightSample sampleEnvironment(FrameParameters frame, vec3 from, vec3 n, vec2 u, float reach) {
+LightSample sampleEnvironment(FrameParameters parameters, vec3 from, vec3 n, vec2 u, float reach) {
     LightSample light = kNoLightSample;
     if (sceneHas(kFeatureEnvironment))
-        light = sampleConstantEnvironment(frame, n, u);
+        light = sampleConstantEnvironment(parameters, n, u);
     if (sceneHas(kFeatureEnvironmentMap))
-        light = sampleEnvironmentMap(frame, u);
+        light = sampleEnvironmentMap(parameters, u);
     light.end = from + reach * light.wi;
     light.isDelta = false;
     return light;

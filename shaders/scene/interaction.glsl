@@ -2,7 +2,7 @@
 #include "lib/features.glsl"
 #include "lib/math/octahedral.glsl"
 #include "lib/math/ray_offset.glsl"
-#include "scene/tangent_frame.glsl"
+#include "scene/tangent_basis.glsl"
 #include "scene/triangle_record.glsl"
 #include "shared/bindings.h"
 #include "shared/scene.h"
@@ -40,15 +40,15 @@ vec3 shadingNormal(TriangleRecord triangle, vec3 b, vec3 ng) {
     return length2 > 1e-12 ? n * inversesqrt(length2) : ng; // opposite corner normals cancel: keep the plane's
 }
 
-// The frame for normal maps, on the side of wo.
-void addTangentFrame(inout Interaction i) {
+// The basis for normal maps, on the side of wo.
+void addTangentBasis(inout Interaction i) {
     const float side = i.isFront ? 1.0 : -1.0;
-    const Basis frame = tangentFrame(i.id, i.b, side * i.n);
-    i.tangent = side * frame.tangent;
-    i.bitangent = side * frame.bitangent;
+    const Basis basis = tangentBasis(i.id, i.b, side * i.n);
+    i.tangent = side * basis.tangent;
+    i.bitangent = side * basis.bitangent;
 }
 
-// The frame of the BSDF: z is the shading normal, x the direction of anisotropy, turned counter-clockwise by `rotation`.
+// The basis of the BSDF: z is the shading normal, x the direction of anisotropy, turned counter-clockwise by `rotation`.
 Basis shadingBasis(Interaction i, float anisotropy, float rotation) {
     const Basis any = makeBasis(i.n);
     if (!sceneHas(kFeatureAnisotropy) || anisotropy == 0.0)
@@ -93,6 +93,6 @@ Interaction makeInteraction(Hit hit, vec3 wo) {
     i.meshNormal = i.coatNormal = i.n;
     i.anisotropyDirection = vec2(1.0, 0.0);
     if (sceneHas(kFeatureTangents))
-        addTangentFrame(i);
+        addTangentBasis(i);
     return i;
 }

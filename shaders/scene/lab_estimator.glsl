@@ -1,4 +1,4 @@
-// The frame of every lab kernel: main() takes the samples of one invocation and stores their moments. The kernel gives
+// What every lab kernel shares: main() takes the samples of one invocation and stores their moments. The kernel gives
 // the estimator, as sampleOnce.
 #include "lib/math/running_moments.glsl"
 #include "lib/sampling/sampler.glsl"

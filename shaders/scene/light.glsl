@@ -16,19 +16,19 @@ LightRecord fetchLight(uint index) {
     return LightRecord(uintBitsToFloat(l.x), l.y, uintBitsToFloat(l.z), l.w);
 }
 
-bool isInLightTree(FrameParameters frame, uint light) {
-    return sceneHas(kFeatureLightTree) && light < frame.firstLightColumn;
+bool isInLightTree(FrameParameters parameters, uint light) {
+    return sceneHas(kFeatureLightTree) && light < parameters.firstLightColumn;
 }
 
 // Probability of picking this light, for sampling and for MIS at BSDF hits alike.
-float lightPmf(FrameParameters frame, Receiver receiver, uint light) {
+float lightPmf(FrameParameters parameters, Receiver receiver, uint light) {
     const LightRecord record = fetchLight(light);
-    return isInLightTree(frame, light) ? record.pmf * lightTreePmf(receiver, record.alias) : record.pmf;
+    return isInLightTree(parameters, light) ? record.pmf * lightTreePmf(receiver, record.alias) : record.pmf;
 }
 
 // Probability of picking the environment, which is at infinity and so in no tree.
-float environmentPmf(FrameParameters frame) {
-    return fetchLight(frame.environmentLight).pmf;
+float environmentPmf(FrameParameters parameters) {
+    return fetchLight(parameters.environmentLight).pmf;
 }
 
 struct LightPick {
@@ -45,11 +45,11 @@ const float kLowBitsToUnit = 2.3283064365386963e-10;     // 2^-32
 // then stretched over the part of the column that was met, and so on down the light tree, so that one Sobol pair stratifies
 // lights and points on them together: a quad's two triangles are one light to it. The tree decides by 24 bits of the
 // place, and the other 8 make up for what stretching uses up.
-LightPick pickLight(FrameParameters frame, Receiver receiver, uint bits) {
+LightPick pickLight(FrameParameters parameters, Receiver receiver, uint bits) {
     uint column;
     uint word;
-    umulExtended(bits, frame.lightColumns, column, word);
-    column += frame.firstLightColumn;
+    umulExtended(bits, parameters.lightColumns, column, word);
+    column += parameters.firstLightColumn;
     const LightRecord record = fetchLight(column);
     const float place = bitsToUnit(word);
     const bool stays = place < record.probability; // exact: both are multiples of 2^-24
@@ -67,22 +67,22 @@ LightPick pickLight(FrameParameters frame, Receiver receiver, uint bits) {
     return pick;
 }
 
-// Draws a light sample for next-event estimation; frame.lightColumns > 0. `n`: the shading normal, which the receiver has but
-// roughly. The pdf includes the pmf of the pick.
-LightSample sampleLight(FrameParameters frame, Receiver receiver, vec3 n, uvec2 bits) {
-    const LightPick pick = pickLight(frame, receiver, bits.x);
+// Draws a light sample for next-event estimation; parameters.lightColumns > 0. `n`: the shading normal, which the receiver
+// has but roughly. The pdf includes the pmf of the pick.
+LightSample sampleLight(FrameParameters parameters, Receiver receiver, vec3 n, uvec2 bits) {
+    const LightPick pick = pickLight(parameters, receiver, bits.x);
     const vec2 u = vec2(pick.place, bitsToUnit(bits.y));
     const uint source = fetchLight(pick.light).source;
     const uint kind = source >> kLightKindShift;
     const uint index = source & kLightIndexMask;
-    const float reach = 2.0 * (frame.sceneRadius + distance(receiver.p, frame.sceneCenter));
+    const float reach = 2.0 * (parameters.sceneRadius + distance(receiver.p, parameters.sceneCenter));
     LightSample light = kNoLightSample;
     if (sceneHas(kFeatureTriangleLights) && kind == kLightTriangle)
         light = sampleTriangleLight(receiver.p, u, index);
     if (sceneHas(kFeaturePunctualLights) && kind == kLightPunctual)
         light = samplePunctualLight(receiver.p, index, reach);
     if ((sceneHas(kFeatureEnvironment) || sceneHas(kFeatureEnvironmentMap)) && kind == kLightEnvironment)
-        light = sampleEnvironment(frame, receiver.p, n, u, reach);
+        light = sampleEnvironment(parameters, receiver.p, n, u, reach);
     light.pdf *= pick.pmf;
     return light;
 }

@@ -48,7 +48,7 @@ vec2 coatingOf(MaterialRecord material, vec3 dielectricF0, Specular specular) {
     return mix(vec2(largestOf(specular.f0), specular.f90), film, specular.film.weight) / opaque;
 }
 
-// isFront: wo is on the triangle's front. The frame's x axis is the direction of anisotropy.
+// isFront: wo is on the triangle's front. The basis' x axis is the direction of anisotropy.
 Surface surfaceOf(MaterialRecord material, bool isFront) {
     const float r = (material.ior - 1.0) / (material.ior + 1.0);
     const vec3 dielectricF0 = min(r * r * material.specularColor, vec3(1.0)) * material.specular;

@@ -47,13 +47,13 @@ void applyLayerTexel(uint slot, vec4 texel, inout MaterialRecord m) {
         m.diffuseTransmissionColor *= texel.rgb;
 }
 
-// What changes the frame of shading. wo: unit vector back along the ray.
-void applyFrameTexel(uint slot, vec4 texel, vec3 wo, inout MaterialRecord m, inout Interaction i) {
-    const Basis frame = Basis(i.tangent, i.bitangent, i.meshNormal);
+// What changes the basis of shading. wo: unit vector back along the ray.
+void applyBasisTexel(uint slot, vec4 texel, vec3 wo, inout MaterialRecord m, inout Interaction i) {
+    const Basis basis = Basis(i.tangent, i.bitangent, i.meshNormal);
     if (slot == kSlotNormal)
-        i.n = bentNormal(mappedNormal(frame, texel.xyz, m.normalScale), i.ng, wo);
+        i.n = bentNormal(mappedNormal(basis, texel.xyz, m.normalScale), i.ng, wo);
     if (sceneHas(kFeatureClearcoat) && slot == kSlotClearcoatNormal)
-        i.coatNormal = bentNormal(mappedNormal(frame, texel.xyz, m.clearcoatNormalScale), i.ng, wo);
+        i.coatNormal = bentNormal(mappedNormal(basis, texel.xyz, m.clearcoatNormalScale), i.ng, wo);
     if (sceneHas(kFeatureAnisotropy) && slot == kSlotAnisotropy) {
         m.anisotropy *= texel.b;
         i.anisotropyDirection = 2.0 * texel.rg - 1.0;
@@ -75,7 +75,7 @@ MaterialRecord texturedMaterial(MaterialRecord m, vec3 wo, SampleKey key, inout 
         applyBaseTexel(slot, texel, m);
         applyLayerTexel(slot, texel, m);
         if (sceneHas(kFeatureTangents))
-            applyFrameTexel(slot, texel, wo, m, i);
+            applyBasisTexel(slot, texel, wo, m, i);
         ++index;
     }
     return m;

@@ -63,12 +63,32 @@ uint32_t divideUp(uint32_t a, uint32_t b) {
     return (a + b - 1) / b;
 }
 
-// |z| of a difference of sums with the given variance.
-float absoluteZ(double difference, double variance) {
-    if (difference == 0.0 && variance == 0.0)
-        return 0.0f;
-    const double z = std::abs(difference) / std::sqrt(variance);
-    return std::isnan(z) ? std::numeric_limits<float>::infinity() : static_cast<float>(z);
+// Sums over boxes, divided by pixels^power.
+Image boxMeans(const Image& source, uint32_t factor, int power) {
+    Image result(divideUp(source.width, factor), divideUp(source.height, factor));
+    for (uint32_t y = 0; y < result.height; ++y)
+        for (uint32_t x = 0; x < result.width; ++x) {
+            glm::dvec3 sum(0.0);
+            double n = 0.0;
+            forEachInBox(source, glm::uvec2(x, y) * factor, factor, [&](size_t i) {
+                sum += glm::dvec3(source.pixels[i]);
+                n += 1.0;
+            });
+            result.pixels[size_t{y} * result.width + x] = glm::vec3(sum / (power == 2 ? n * n : n));
+        }
+    return result;
+}
+
+std::vector<uint32_t> boxCounts(const Image& size, const std::vector<uint32_t>& counts, uint32_t factor) {
+    std::vector<uint32_t> result;
+    for (uint32_t y = 0; y < size.height; y += factor)
+        for (uint32_t x = 0; x < size.width; x += factor) {
+            uint64_t samples = 0;
+            forEachInBox(size, {x, y}, factor, [&](size_t i) { samples += counts[i]; });
+            result.push_back(
+                static_cast<uint32_t>(std::min<uint64_t>(samples, std::numeric_limits<uint32_t>::max())));
+        }
+    return result;
 }
 
 } // namespace
@@ -136,72 +156,6 @@ uint64_t countNonFinite(const Image& image) {
     });
     return static_cast<uint64_t>(count);
 }
-
-double ZTest::fractionBelow(float limit) const {
-    const auto below = std::count_if(absZ.begin(), absZ.end(), [&](float z) { return z < limit; });
-    return static_cast<double>(below) / static_cast<double>(absZ.size());
-}
-
-ZTest tileZTest(const Image& a, const Image& varianceA, const Image& b, const Image& varianceB,
-                uint32_t tileSize) {
-    assert(tileSize > 0);
-    requireSameSize(a, b);
-    requireSameSize(a, varianceA);
-    requireSameSize(a, varianceB);
-    ZTest result;
-    result.tileCount = divideUp(a.width, tileSize) * divideUp(a.height, tileSize);
-    result.absZ.reserve(size_t{result.tileCount} * 3);
-    for (uint32_t y = 0; y < a.height; y += tileSize)
-        for (uint32_t x = 0; x < a.width; x += tileSize) {
-            glm::dvec3 difference(0.0);
-            glm::dvec3 variance(0.0);
-            forEachInBox(a, {x, y}, tileSize, [&](size_t i) {
-                difference += glm::dvec3(a.pixels[i]) - glm::dvec3(b.pixels[i]);
-                variance += glm::dvec3(varianceA.pixels[i]) + glm::dvec3(varianceB.pixels[i]);
-            });
-            for (int c = 0; c < 3; ++c) {
-                result.absZ.push_back(absoluteZ(difference[c], variance[c]));
-                if (result.absZ.back() > result.maxAbsZ) {
-                    result.maxAbsZ = result.absZ.back();
-                    result.worstTile = {x, y};
-                    result.worstChannel = c;
-                }
-            }
-        }
-    return result;
-}
-
-namespace {
-
-// Sums over boxes, divided by pixels^power.
-Image boxMeans(const Image& source, uint32_t factor, int power) {
-    Image result(divideUp(source.width, factor), divideUp(source.height, factor));
-    for (uint32_t y = 0; y < result.height; ++y)
-        for (uint32_t x = 0; x < result.width; ++x) {
-            glm::dvec3 sum(0.0);
-            double n = 0.0;
-            forEachInBox(source, glm::uvec2(x, y) * factor, factor, [&](size_t i) {
-                sum += glm::dvec3(source.pixels[i]);
-                n += 1.0;
-            });
-            result.pixels[size_t{y} * result.width + x] = glm::vec3(sum / (power == 2 ? n * n : n));
-        }
-    return result;
-}
-
-std::vector<uint32_t> boxCounts(const Image& size, const std::vector<uint32_t>& counts, uint32_t factor) {
-    std::vector<uint32_t> result;
-    for (uint32_t y = 0; y < size.height; y += factor)
-        for (uint32_t x = 0; x < size.width; x += factor) {
-            uint64_t samples = 0;
-            forEachInBox(size, {x, y}, factor, [&](size_t i) { samples += counts[i]; });
-            result.push_back(
-                static_cast<uint32_t>(std::min<uint64_t>(samples, std::numeric_limits<uint32_t>::max())));
-        }
-    return result;
-}
-
-} // namespace
 
 Rendering downsample(const Rendering& rendering, uint32_t factor) {
     assert(factor > 0 && !rendering.radiance().pixels.empty());

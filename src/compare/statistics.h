@@ -1,4 +1,4 @@
-// How far images are from each other, and whether noise explains it. Sums are taken in double precision.
+// How far images are from each other. Sums are taken in double precision.
 #pragma once
 
 #include <cstdint>
@@ -40,27 +40,6 @@ struct MeanDifference {
 
 // How many pixels hold a NaN or an infinity.
 [[nodiscard]] uint64_t countNonFinite(const Image& image);
-
-struct ZTest {
-    uint32_t tileCount = 0;
-    std::vector<float> absZ; // |z| of tiles row by row, three channels each
-    float maxAbsZ = 0.0f;    // infinite where means differ though both variances are zero
-    glm::uvec2 worstTile{0}; // the first pixel (x, y) of the tile with maxAbsZ
-    int worstChannel = 0;    // 0, 1, 2 for R, G, B
-
-    // The fraction of the tests, three to a tile, with |z| below `limit`. For independent samples and equal
-    // means z is standard normal: 0.99903 of them are below 3.3.
-    [[nodiscard]] double fractionBelow(float limit) const;
-};
-
-// Whether a and b may have the same mean, tile by tile. For a tile of n pixels and one channel
-//   z = sum(a - b) / sqrt(sum(varianceA + varianceB)),
-// which is the difference of the tile's means over its standard deviation, for pixels that are independent.
-// Variances are of the mean, as Rendering holds them. Where both variances are zero, z is 0 for equal sums
-// and infinite for others; NaN counts as infinite. Tiles at the right and lower edges may be smaller.
-// tileSize 1 tests each pixel. Throws Error if the four sizes differ.
-[[nodiscard]] ZTest tileZTest(const Image& a, const Image& varianceA, const Image& b, const Image& varianceB,
-                              uint32_t tileSize);
 
 // Boxes of factor x factor pixels averaged to one; boxes at the right and lower edges may be smaller. For a
 // box of n pixels and each layer: mean = sum / n, variance of the mean = sum(variance) / n^2, samples = sum,

@@ -62,38 +62,27 @@ Uncertainty uncertaintyOf(const Estimate& image, const Estimate& reference, size
     return u;
 }
 
-// Sums over the pixels of a tile.
-struct Sums {
-    glm::dvec3 difference{0.0};
-    glm::dvec3 reference{0.0};
-    Uncertainty uncertainty;
-};
-
-Sums sumOfTile(const Estimate& image, const Estimate& reference, glm::uvec2 first, uint32_t size) {
+TileDifference tileDifference(const Estimate& image, const Estimate& reference, glm::uvec2 first,
+                              uint32_t size) {
     const uint32_t width = image.mean->width;
     const uint32_t endX = std::min(width, first.x + size);
     const uint32_t endY = std::min(image.mean->height, first.y + size);
-    Sums sums;
+    TileDifference tile{first};
     for (uint32_t y = first.y; y < endY; ++y)
         for (uint32_t x = first.x; x < endX; ++x) {
             const size_t i = size_t{y} * width + x;
             if (!canBeTested(image, i) || !canBeTested(reference, i))
                 continue;
             const glm::dvec3 r(reference.mean->pixels[i]);
-            sums.difference += glm::dvec3(image.mean->pixels[i]) - r;
-            sums.reference += r;
+            tile.difference += glm::dvec3(image.mean->pixels[i]) - r;
+            tile.reference += r;
+            tile.imageVariance += varianceOf(image, i);
+            tile.referenceVariance += varianceOf(reference, i);
             const Uncertainty u = uncertaintyOf(image, reference, i);
-            sums.uncertainty.variance += u.variance;
-            sums.uncertainty.spread += u.spread;
+            tile.variance += u.variance;
+            tile.spread += u.spread;
         }
-    return sums;
-}
-
-double absoluteZ(const Sums& sums, int c) {
-    if (sums.difference[c] == 0.0)
-        return 0.0;
-    const double z = std::abs(sums.difference[c]) / std::sqrt(sums.uncertainty.variance[c]);
-    return std::isnan(z) ? std::numeric_limits<double>::infinity() : z;
+    return tile;
 }
 
 // The probability of a value beyond -t or t; degrees of freedom may be infinite.
@@ -108,15 +97,15 @@ double studentTwoSidedTail(double t, double degreesOfFreedom) {
 
 // The p-value of a test; any above `atLeast` may come out as `atLeast`. Student's tails are no lighter than
 // the normal distribution's, which takes a tenth of their time and settles nearly all tests.
-double pValue(const Sums& sums, int c, double z, double atLeast) {
-    if (std::abs(sums.difference[c]) <= kRounding * std::abs(sums.reference[c]))
+double pValue(const TileDifference& tile, int c, double z, double atLeast) {
+    if (std::abs(tile.difference[c]) <= kRounding * std::abs(tile.reference[c]))
         return 1.0;
     if (std::isinf(z))
         return 0.0;
     if (std::erfc(z / std::numbers::sqrt2) > atLeast)
         return atLeast;
-    const double squared = sums.uncertainty.variance[c] * sums.uncertainty.variance[c];
-    const double spread = sums.uncertainty.spread[c];
+    const double squared = tile.variance[c] * tile.variance[c];
+    const double spread = tile.spread[c];
     return studentTwoSidedTail(z, spread > 0.0 ? squared / spread : std::numeric_limits<double>::infinity());
 }
 
@@ -127,29 +116,42 @@ double WelchTest::fractionBelow(float limit) const {
     return static_cast<double>(below) / static_cast<double>(absZ.size());
 }
 
-WelchTest welchTest(const Estimate& image, const Estimate& reference, uint32_t tileSize) {
+std::vector<TileDifference> tileDifferences(const Estimate& image, const Estimate& reference,
+                                            uint32_t tileSize) {
     assert(tileSize > 0 && image.mean != nullptr && reference.mean != nullptr);
     requireSameSize(*image.mean, reference.mean);
     requireSameSize(*image.mean, image.variance);
     requireSameSize(*image.mean, reference.variance);
     if (image.mean->pixels.empty())
         throw Error("cannot test empty images");
+    std::vector<TileDifference> tiles;
+    for (uint32_t y = 0; y < image.mean->height; y += tileSize)
+        for (uint32_t x = 0; x < image.mean->width; x += tileSize)
+            tiles.push_back(tileDifference(image, reference, {x, y}, tileSize));
+    return tiles;
+}
+
+double absoluteZ(double difference, double deviation) {
+    if (difference == 0.0)
+        return 0.0;
+    const double z = std::abs(difference) / deviation;
+    return std::isnan(z) ? std::numeric_limits<double>::infinity() : z;
+}
+
+WelchTest welchTest(const Estimate& image, const Estimate& reference, uint32_t tileSize) {
     WelchTest result;
     double smallest = 2.0; // above every p
-    for (uint32_t y = 0; y < image.mean->height; y += tileSize)
-        for (uint32_t x = 0; x < image.mean->width; x += tileSize) {
-            const Sums sums = sumOfTile(image, reference, {x, y}, tileSize);
-            for (int c = 0; c < 3; ++c) {
-                const double z = absoluteZ(sums, c);
-                result.absZ.push_back(static_cast<float>(z));
-                result.maxAbsZ = std::max(result.maxAbsZ, result.absZ.back());
-                const double p = pValue(sums, c, z, smallest);
-                if (p < smallest || (p == 0.0 && z > result.worstAbsZ)) {
-                    smallest = p;
-                    result.worstTile = {x, y};
-                    result.worstChannel = c;
-                    result.worstAbsZ = result.absZ.back();
-                }
+    for (const TileDifference& tile : tileDifferences(image, reference, tileSize))
+        for (int c = 0; c < 3; ++c) {
+            const double z = absoluteZ(tile.difference[c], std::sqrt(tile.variance[c]));
+            result.absZ.push_back(static_cast<float>(z));
+            result.maxAbsZ = std::max(result.maxAbsZ, result.absZ.back());
+            const double p = pValue(tile, c, z, smallest);
+            if (p < smallest || (p == 0.0 && z > result.worstAbsZ)) {
+                smallest = p;
+                result.worstTile = tile.first;
+                result.worstChannel = c;
+                result.worstAbsZ = result.absZ.back();
             }
         }
     result.p = std::min(1.0, smallest * static_cast<double>(result.absZ.size()));

@@ -20,6 +20,27 @@ struct Estimate {
     std::span<const uint32_t> sampleCounts{}; // samples of each pixel; may be absent
 };
 
+// The difference image - reference over a tile, channel by channel, as sums over the pixels that can be
+// tested.
+struct TileDifference {
+    glm::uvec2 first{0}; // the tile's first pixel (x, y)
+    glm::dvec3 difference{0.0};
+    glm::dvec3 reference{0.0}; // the reference's value
+    glm::dvec3 imageVariance{0.0};
+    glm::dvec3 referenceVariance{0.0};
+    glm::dvec3 variance{0.0}; // the difference's: the sum of both or, where samples differ in number, more
+    glm::dvec3 spread{0.0}; // sum(v^2 / degrees of freedom) of the estimates v that `variance` is the sum of
+};
+
+// The tiles row by row; those at the right and lower edges may be smaller. Throws Error if the images differ
+// in size or are empty.
+[[nodiscard]] std::vector<TileDifference> tileDifferences(const Estimate& image, const Estimate& reference,
+                                                          uint32_t tileSize);
+
+// |z| of a difference with the given standard deviation: 0 for none, infinite for NaN and where a difference
+// has no deviation.
+[[nodiscard]] double absoluteZ(double difference, double deviation);
+
 struct WelchTest {
     std::vector<float> absZ; // |z| of tiles row by row, three channels each; 0 where nothing could be tested
     float maxAbsZ = 0.0f;    // infinite where means differ though both variances are zero
@@ -37,9 +58,8 @@ struct WelchTest {
 // where rare bright paths make them, z has the tails of Student's t; its degrees of freedom follow from the
 // variances and sample counts of the tile's pixels (Welch 1947). Where sample counts differ, each pixel's
 // variance is at least what the samples of both images together say of one. Differences below 1e-4 of the
-// reference's tile, as other drivers may round them, are none. Pixels that have variances and fewer than two
-// samples are left out. Tiles at the right and lower edges may be smaller. Throws Error if the images differ
-// in size or are empty.
+// reference's tile, as other drivers may round them, are none to p, though |z| is as it is. Pixels that have
+// variances and fewer than two samples are left out. Throws Error as tileDifferences does.
 [[nodiscard]] WelchTest welchTest(const Estimate& image, const Estimate& reference, uint32_t tileSize);
 
 } // namespace lavalight

@@ -1,8 +1,12 @@
 #include "image/environment_file.h"
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <fstream>
+#include <string>
+#include <string_view>
 
 #include "base/file.h"
 #include "image/exr.h"
@@ -24,6 +28,15 @@ bool isGood(float value) {
 }
 
 } // namespace
+
+bool hasEnvironmentExtension(const std::filesystem::path& path) {
+    const std::string extension = path.extension().string();
+    constexpr std::array<std::string_view, 3> kExtensions{".hdr", ".pic", ".exr"};
+    return std::any_of(kExtensions.begin(), kExtensions.end(), [&](std::string_view known) {
+        return std::equal(extension.begin(), extension.end(), known.begin(), known.end(),
+                          [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == b; });
+    });
+}
 
 EnvironmentFile readEnvironmentFile(const std::filesystem::path& path) {
     EnvironmentFile file;

@@ -26,15 +26,7 @@ EstimatorRow rowOf(const DiceWay& way, const SampleKernel& kernel, const LabOpti
     run.a.x = static_cast<float>(way.p);
     const Moments m = kernel.estimate(run, options.samples / rollsEach);
     const Theory theory = isTogether ? diceTogether() : dieAtATime(way.p);
-    EstimatorRow row{way.name,
-                     m.count,
-                     m.mean,
-                     theory.mean,
-                     m.standardError(),
-                     m.variance(),
-                     theory.variance,
-                     static_cast<double>(rollsEach),
-                     {}};
+    EstimatorRow row = estimatorRow(way.name, m, theory, static_cast<double>(rollsEach));
     row.more = {m.count * rollsEach, theory.variance * static_cast<double>(rollsEach)};
     return row;
 }

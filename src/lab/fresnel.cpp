@@ -34,7 +34,7 @@ Table reflectance(gpu::Device& device, uint32_t seed) {
 }
 
 Table scene(gpu::Device& device, const LabOptions& options) {
-    const RenderBench bench(device, "cornell-glass", kFresnelImageHeight);
+    RenderBench bench(device, "cornell-glass", kFresnelImageHeight);
     RenderTable rows(bench, static_cast<uint32_t>(options.samples));
     EstimatorSettings estimator = independentSettings(options.seed);
     rows.add("exact", estimator);

@@ -16,15 +16,9 @@ EstimatorRow rowOf(Hemisphere directions, uint32_t sky, const SampleKernel& kern
     run.variant = sky;
     const Moments m = kernel.estimate(run, options.samples);
     const Theory theory = skyIrradiance(directions, sky == kSkyOvercast);
-    return {directions == Hemisphere::uniform ? "uniform, pdf 1 / (2 pi)" : "cosine, pdf cos / pi",
-            m.count,
-            m.mean,
-            theory.mean,
-            m.standardError(),
-            m.variance(),
-            theory.variance,
-            1.0,
-            {}};
+    const char* const name =
+        directions == Hemisphere::uniform ? "uniform, pdf 1 / (2 pi)" : "cosine, pdf cos / pi";
+    return estimatorRow(name, m, theory);
 }
 
 Table tableOf(const std::string& name, const std::string& title, uint32_t sky, const SampleKernel& kernel,

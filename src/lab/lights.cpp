@@ -31,15 +31,7 @@ EstimatorRow rowOf(const Pick& pick, const SampleKernel& kernel, const LabOption
     run.b = kernelLight(kSmall, 1.0 - pick.large);
     const Moments m = kernel.estimate(run, options.samples);
     const Theory theory = twoLights(kLarge, kSmall, pick.large);
-    return {fmt::format("{}, p = {:.3f}", pick.name, pick.large),
-            m.count,
-            m.mean,
-            theory.mean,
-            m.standardError(),
-            m.variance(),
-            theory.variance,
-            1.0,
-            {}};
+    return estimatorRow(fmt::format("{}, p = {:.3f}", pick.name, pick.large), m, theory);
 }
 
 Table spheres(gpu::Device& device, const LabOptions& options) {
@@ -65,7 +57,7 @@ Table spheres(gpu::Device& device, const LabOptions& options) {
 }
 
 Table scene(gpu::Device& device, uint32_t seed) {
-    const RenderBench bench(device, "large-small-light", 48);
+    RenderBench bench(device, "large-small-light", 48);
     RenderTable rows(bench, 128);
     EstimatorSettings estimator = independentSettings(seed);
     estimator.mis = Mis::off;

@@ -10,7 +10,7 @@ constexpr uint32_t kMisImageHeight = 48;
 } // namespace
 
 std::vector<Table> runMis(gpu::Device& device, const LabOptions& options) {
-    const RenderBench bench(device, "veach-mis", kMisImageHeight);
+    RenderBench bench(device, "veach-mis", kMisImageHeight);
     RenderTable rows(bench, static_cast<uint32_t>(options.samples));
     EstimatorSettings estimator = independentSettings(options.seed);
     estimator.nextEventEstimation = false;
@@ -35,7 +35,7 @@ std::vector<Table> runMis(gpu::Device& device, const LabOptions& options) {
 std::vector<Table> runSurvival(gpu::Device& device, const LabOptions& options) {
     std::vector<Table> tables;
     for (const char* scene : {"cornell-box", "veach-mis"}) {
-        const RenderBench bench(device, scene, kMisImageHeight);
+        RenderBench bench(device, scene, kMisImageHeight);
         RenderTable rows(bench, static_cast<uint32_t>(options.samples));
         EstimatorSettings estimator = independentSettings(options.seed);
         estimator.rouletteStart = 1;

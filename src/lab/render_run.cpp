@@ -1,11 +1,7 @@
 #include "lab/render_run.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-
-#include "render/renderer.h"
-#include "session/builtin.h"
 
 namespace lavalight {
 namespace {
@@ -53,6 +49,12 @@ std::vector<size_t> pixelsWithoutLight(const Image& emission) {
     return pixels;
 }
 
+RenderPlan planOf(const std::string& scene) {
+    RenderPlan plan;
+    plan.scene = scene;
+    return plan;
+}
+
 constexpr uint32_t kEmissionSamples = 64; // a pixel: enough to find the lights in it
 
 } // namespace
@@ -67,33 +69,43 @@ double RenderRun::efficiency() const {
 }
 
 RenderBench::RenderBench(gpu::Device& device, const std::string& scene, uint32_t height)
-    : device_(&device), scene_(loadScene(scene)), height_(height) {
+    : session_(planOf(scene), device) {
+    image_.height = height;
     EstimatorSettings emissionOnly = independentSettings(0);
     emissionOnly.maxBounces = 0;
-    Renderer renderer(device, scene_, scene_.cameras.front(), settings(emissionOnly, kEmissionSamples));
-    renderer.render([](double) { return true; });
-    measured_ = pixelsWithoutLight(renderer.rendering().radiance());
+    RenderJob job = render(settings(emissionOnly, kEmissionSamples));
+    image_ = job.renderer->settings().image; // with the width
+    measured_ = pixelsWithoutLight(job.renderer->rendering().radiance());
+    finish(std::move(job));
 }
 
 RenderSettings RenderBench::settings(const EstimatorSettings& estimator, uint32_t samples) const {
     RenderSettings settings;
     settings.estimator = estimator;
-    settings.image.height = height_;
+    settings.image = image_;
     settings.stop.samples = samples;
-    settings = resolveSize(settings, scene_.cameras.front());
-    checkSettings(settings);
     return settings;
 }
 
-RenderRun RenderBench::measure(const EstimatorSettings& estimator, uint32_t samples) const {
-    Renderer renderer(*device_, scene_, scene_.cameras.front(), settings(estimator, samples));
-    const auto start = std::chrono::steady_clock::now();
-    renderer.render([](double) { return true; });
+RenderJob RenderBench::render(const RenderSettings& settings, const Look& look) {
+    session_.use(settings);
+    RenderJob job = session_.prepare({}, {});
+    job.takeSamples([&](double fraction) {
+        if (look)
+            look(fraction, *job.renderer);
+        return true;
+    });
+    return job;
+}
+
+RenderRun RenderBench::measure(const EstimatorSettings& estimator, uint32_t samples) {
+    RenderJob job = render(settings(estimator, samples));
     RenderRun run;
-    run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    run.seconds = job.report.renderSeconds;
     run.samples = samples;
-    run.rays = renderer.waves().rays();
-    addFilm(run, renderer.rendering(), measured_);
+    run.rays = job.renderer->waves().rays();
+    addFilm(run, job.renderer->rendering(), measured_);
+    finish(std::move(job));
     return run;
 }
 

@@ -3,14 +3,16 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "film/film_cost.h"
 #include "gpu/device.h"
 #include "lab/table.h"
 #include "render/settings.h"
-#include "render/wave_renderer.h"
-#include "scene/scene.h"
+#include "session/render_session.h"
 
 namespace lavalight {
 
@@ -37,16 +39,18 @@ class RenderBench {
     // its camera.
     RenderBench(gpu::Device& device, const std::string& scene, uint32_t height);
 
-    [[nodiscard]] RenderRun measure(const EstimatorSettings& estimator, uint32_t samples) const;
+    [[nodiscard]] RenderRun measure(const EstimatorSettings& estimator, uint32_t samples);
 
-    [[nodiscard]] gpu::Device& device() const { return *device_; }
-    [[nodiscard]] const Scene& scene() const { return scene_; }
     [[nodiscard]] RenderSettings settings(const EstimatorSettings& estimator, uint32_t samples) const;
+    // Calls `look` between waves with the fraction done and the image so far.
+    using Look = std::function<void(double fraction, const Renderer& renderer)>;
+    // Renders the scene to the end, and returns the job until finish() takes it back.
+    [[nodiscard]] RenderJob render(const RenderSettings& settings, const Look& look = {});
+    void finish(RenderJob job) { session_.finish(std::move(job)); }
 
   private:
-    gpu::Device* device_;
-    Scene scene_;
-    uint32_t height_;
+    RenderSession session_;
+    ImageSettings image_;
     std::vector<size_t> measured_; // indices of pixels
 };
 
@@ -57,7 +61,7 @@ class RenderBench {
 // Measures estimators one by one and gathers their rows; the first is the naive one.
 class RenderTable {
   public:
-    explicit RenderTable(const RenderBench& bench, uint32_t samples) : bench_(&bench), samples_(samples) {}
+    explicit RenderTable(RenderBench& bench, uint32_t samples) : bench_(&bench), samples_(samples) {}
 
     void add(const std::string& name, const EstimatorSettings& estimator);
     // Columns of an estimator's table, then rays per path, shadow rays per path, seconds, efficiency. Notes
@@ -65,7 +69,7 @@ class RenderTable {
     [[nodiscard]] Table table(const std::string& name, const std::string& title) const;
 
   private:
-    const RenderBench* bench_;
+    RenderBench* bench_;
     uint32_t samples_;
     std::vector<EstimatorRow> rows_;
 };

@@ -25,8 +25,7 @@ EstimatorRow rowOf(const std::string& name, uint32_t kind, double survival, cons
     run.a.y = static_cast<float>(survival);
     const Moments m = kernel.estimate(run, kRouletteSamples);
     const Theory theory = rouletteRays(kRays, kWatts, survival);
-    EstimatorRow row{name,         m.count,         m.mean, theory.mean, m.standardError(),
-                     m.variance(), theory.variance, 1.0,    {}};
+    EstimatorRow row = estimatorRow(name, m, theory);
     if (kind == kRouletteForgot)
         row.theory = theory.variance * survival * survival;
     row.more = {kRays * survival};
@@ -59,7 +58,7 @@ Table box(gpu::Device& device, const LabOptions& options) {
                                          {"max-albedo", Roulette::maxAlbedo},
                                          {"throughput", Roulette::throughput},
                                          {"sqrt-throughput", Roulette::sqrtThroughput}}};
-    const RenderBench bench(device, "cornell-box", kRouletteImageHeight);
+    RenderBench bench(device, "cornell-box", kRouletteImageHeight);
     RenderTable rows(bench, static_cast<uint32_t>(options.samples));
     EstimatorSettings estimator = independentSettings(options.seed);
     estimator.rouletteStart = 1; // from the first vertex on, as in the lecture

@@ -13,7 +13,6 @@
 #include "lab/render_run.h"
 #include "lab/sample_kernel.h"
 #include "lab/theory.h"
-#include "render/renderer.h"
 
 namespace lavalight {
 namespace {
@@ -78,10 +77,9 @@ Table convergenceTable(std::string name, std::string title, const Convergence& c
                      {"log2SobolRmse", "log2"},   {"mseRatio", "MSE ratio"}};
     for (size_t i = 0; i < c.samples.size(); ++i) {
         const double ratio = c.errors[1][i] / c.errors[0][i];
-        table.rows.push_back({static_cast<uint64_t>(c.samples[i]), std::log2(c.samples[i]),
-                              exact ? Cell(*exact) : Cell(), c.means[0][i], c.errors[0][i],
-                              std::log2(c.errors[0][i]), c.means[1][i], c.errors[1][i],
-                              std::log2(c.errors[1][i]), ratio * ratio});
+        table.rows.push_back({static_cast<uint64_t>(c.samples[i]), std::log2(c.samples[i]), cellOf(exact),
+                              c.means[0][i], c.errors[0][i], std::log2(c.errors[0][i]), c.means[1][i],
+                              c.errors[1][i], std::log2(c.errors[1][i]), ratio * ratio});
     }
     return table;
 }
@@ -97,19 +95,17 @@ constexpr uint32_t kImageStep = 16; // samples of a wave: a film is looked at af
 constexpr uint32_t kImageSamples = 256;
 
 // Images of the first 16, 64, 256 samples of one render.
-std::vector<Image> snapshots(const RenderBench& bench, const EstimatorSettings& estimator) {
+std::vector<Image> snapshots(RenderBench& bench, const EstimatorSettings& estimator) {
     RenderSettings settings = bench.settings(estimator, kImageSamples);
     settings.work.waveSize = settings.image.width * settings.image.height * kImageStep;
-    Renderer renderer(bench.device(), bench.scene(), bench.scene().cameras.front(), settings);
     std::vector<Image> images;
     uint32_t next = kImageStep;
-    renderer.render([&](double fraction) {
+    bench.finish(bench.render(settings, [&](double fraction, const Renderer& renderer) {
         if (std::lround(fraction * kImageSamples) >= next) {
             images.push_back(renderer.rendering().radiance());
             next *= 4;
         }
-        return true;
-    });
+    }));
     return images;
 }
 
@@ -135,7 +131,7 @@ void addImages(Convergence& result, size_t sampler, const std::vector<std::vecto
 }
 
 Convergence renderBox(gpu::Device& device, uint32_t seed) {
-    const RenderBench bench(device, "cornell-box", kSamplerImageHeight);
+    RenderBench bench(device, "cornell-box", kSamplerImageHeight);
     Convergence result;
     for (uint32_t samples = kImageStep; samples <= kImageSamples; samples *= 4)
         result.samples.push_back(samples);

@@ -69,15 +69,8 @@ class StrataRows {
         run.kind = way.kind;
         run.count = way.count;
         const Moments m = kernel_.estimate(run, evaluations_ / way.evaluationsEach, pmf);
-        rows_.push_back({name,
-                         m.count,
-                         m.mean,
-                         theory.mean,
-                         m.standardError(),
-                         m.variance(),
-                         theory.variance,
-                         static_cast<double>(way.evaluationsEach),
-                         {m.count * way.evaluationsEach}});
+        rows_.push_back(estimatorRow(name, m, theory, static_cast<double>(way.evaluationsEach)));
+        rows_.back().more = {m.count * way.evaluationsEach};
     }
 
     SampleKernel kernel_;

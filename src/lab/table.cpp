@@ -151,11 +151,19 @@ std::string tablesCsv(std::span<const Table> tables) {
     return text;
 }
 
+EstimatorRow estimatorRow(std::string name, const Moments& moments, const Theory& theory, double cost) {
+    return {std::move(name),    moments.count,   moments.mean, theory.mean, moments.standardError(),
+            moments.variance(), theory.variance, cost,         {}};
+}
+
+Cell cellOf(const std::optional<double>& value) {
+    return value ? Cell(*value) : Cell();
+}
+
 Table estimatorTable(std::string name, std::string title, const std::vector<EstimatorRow>& rows,
                      const std::vector<Column>& more) {
     const bool hasTheory =
         std::any_of(rows.begin(), rows.end(), [](const auto& r) { return r.theory.has_value(); });
-    const auto orNothing = [](const std::optional<double>& value) { return value ? Cell(*value) : Cell(); };
     Table table{std::move(name), std::move(title), {}, {}, {}};
     table.columns = {{"estimator", "estimator"}, {"samples", "samples"},         {"estimate", "estimate"},
                      {"exact", "exact"},         {"standardError", "std error"}, {"variance", "variance"}};
@@ -165,10 +173,10 @@ Table estimatorTable(std::string name, std::string title, const std::vector<Esti
     table.columns.insert(table.columns.end(), more.begin(), more.end());
     const double naive = rows.empty() ? 0.0 : rows.front().variance * rows.front().cost;
     for (const EstimatorRow& row : rows) {
-        std::vector<Cell> cells{row.estimator,        row.samples,       row.estimate,
-                                orNothing(row.exact), row.standardError, row.variance};
+        std::vector<Cell> cells{row.estimator,     row.samples,       row.estimate,
+                                cellOf(row.exact), row.standardError, row.variance};
         if (hasTheory)
-            cells.push_back(orNothing(row.theory));
+            cells.push_back(cellOf(row.theory));
         cells.push_back(naive > 0.0 ? Cell(row.variance * row.cost / naive) : Cell());
         cells.insert(cells.end(), row.more.begin(), row.more.end());
         table.rows.push_back(std::move(cells));

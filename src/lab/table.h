@@ -10,6 +10,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "lab/moments.h"
+#include "lab/theory.h"
+
 namespace lavalight {
 
 // A cell of a row; std::monostate where the figure has no meaning in this row.
@@ -28,6 +31,9 @@ struct Table {
     std::vector<std::vector<Cell>> rows;
     std::vector<std::string> notes; // what the rows show
 };
+
+// Monostate where there is no value.
+[[nodiscard]] Cell cellOf(const std::optional<double>& value);
 
 [[nodiscard]] std::string tableText(const Table& table);
 // {"name", "title", "columns": [{"key", "heading"}], "rows": [{key: value}], "notes"}; a cell without value
@@ -49,6 +55,10 @@ struct EstimatorRow {
     double cost = 1.0;            // cost of one sample; the ratio compares at equal cost
     std::vector<Cell> more;       // further columns of this table
 };
+
+// The row of samples whose mean and variance have closed forms.
+[[nodiscard]] EstimatorRow estimatorRow(std::string name, const Moments& moments, const Theory& theory,
+                                        double cost = 1.0);
 
 // Columns estimator, samples, estimate, exact, standard error, variance, theory (where any row has one),
 // ratio, and `more`. The first row is the naive one: the ratio is (variance * cost) over that of the first

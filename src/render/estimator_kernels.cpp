@@ -1,5 +1,6 @@
 #include "render/estimator_kernels.h"
 
+#include <algorithm>
 #include <cassert>
 #include <chrono>
 
@@ -19,19 +20,13 @@ std::vector<gpu::SpecialisationConstant> estimatorConstants(const EstimatorSetti
     return constants;
 }
 
-std::vector<std::string_view> estimatorKernelNames(Schedule schedule) {
-    assert(schedule != Schedule::automatic);
-    if (schedule == Schedule::fused)
-        return {"path", "accumulate"};
-    return {"generate", "extend", "shade", "prepare", "connect", "accumulate"};
-}
-
-EstimatorKernels::EstimatorKernels(gpu::Device& device, Schedule schedule, const EstimatorSettings& settings,
-                                   SceneFeatures features, const KernelSource& source)
-    : schedule_(schedule), constants_(estimatorConstants(settings, features)) {
+EstimatorKernels::EstimatorKernels(gpu::Device& device, std::span<const std::string_view> names,
+                                   const EstimatorSettings& settings, SceneFeatures features,
+                                   const KernelSource& source)
+    : constants_(estimatorConstants(settings, features)) {
     const auto start = std::chrono::steady_clock::now();
     std::vector<const gpu::Kernel*> made;
-    for (const std::string_view name : estimatorKernelNames(schedule))
+    for (const std::string_view name : names)
         made.push_back(
             &kernels_.try_emplace(std::string(name), device, source(name), constants_).first->second);
     gpu::warmUp(device, made);
@@ -62,9 +57,12 @@ void EstimatorKernels::replace(KernelMap compiled) noexcept {
     kernels_.merge(compiled); // kernels stay at their addresses, which bound ones know
 }
 
-bool EstimatorKernels::serve(Schedule schedule, const EstimatorSettings& settings,
+bool EstimatorKernels::serve(std::span<const std::string_view> names, const EstimatorSettings& settings,
                              SceneFeatures features) const {
-    return schedule == schedule_ && estimatorConstants(settings, features) == constants_;
+    const bool hasAll = names.size() == kernels_.size() &&
+                        std::all_of(names.begin(), names.end(),
+                                    [&](std::string_view name) { return kernels_.contains(name); });
+    return hasAll && estimatorConstants(settings, features) == constants_;
 }
 
 const gpu::Kernel& EstimatorKernels::operator[](std::string_view name) const {

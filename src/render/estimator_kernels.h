@@ -21,17 +21,14 @@ namespace lavalight {
 [[nodiscard]] std::vector<gpu::SpecialisationConstant> estimatorConstants(const EstimatorSettings& settings,
                                                                           SceneFeatures features);
 
-// Names of the kernels that the schedule runs; it must not be automatic.
-[[nodiscard]] std::vector<std::string_view> estimatorKernelNames(Schedule schedule);
-
 using KernelMap = std::map<std::string, gpu::Kernel, std::less<>>;
 
-// The kernels of a schedule, specialised, and compiled by the driver. No scene need be uploaded yet.
+// Kernels of a render, specialised, and compiled by the driver. No scene need be uploaded yet.
 class EstimatorKernels {
   public:
-    // The schedule must not be automatic.
-    EstimatorKernels(gpu::Device& device, Schedule schedule, const EstimatorSettings& settings,
-                     SceneFeatures features, const KernelSource& source);
+    // `names`: kernelNames() of the render's phases.
+    EstimatorKernels(gpu::Device& device, std::span<const std::string_view> names,
+                     const EstimatorSettings& settings, SceneFeatures features, const KernelSource& source);
 
     // Names of the kernels whose code `source` changes. Throws Error as `source` does.
     [[nodiscard]] std::vector<std::string> changed(const KernelSource& source) const;
@@ -40,11 +37,11 @@ class EstimatorKernels {
     // Puts compiled kernels in the places of those of their names, which nothing may be bound to any more.
     void replace(KernelMap compiled) noexcept;
 
-    // The kernel must be one of the schedule's.
+    // The kernel must be one of those of the constructor.
     [[nodiscard]] const gpu::Kernel& operator[](std::string_view name) const;
     [[nodiscard]] const KernelMap& all() const { return kernels_; }
     // Whether they are what the constructor would make of these.
-    [[nodiscard]] bool serve(Schedule schedule, const EstimatorSettings& settings,
+    [[nodiscard]] bool serve(std::span<const std::string_view> names, const EstimatorSettings& settings,
                              SceneFeatures features) const;
     // For another render, which they cost no time.
     [[nodiscard]] EstimatorKernels handOn() && {
@@ -56,7 +53,6 @@ class EstimatorKernels {
     [[nodiscard]] double seconds() const { return seconds_; }
 
   private:
-    Schedule schedule_;
     std::vector<gpu::SpecialisationConstant> constants_;
     KernelMap kernels_;
     double seconds_ = 0.0;

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <numeric>
 
-#include "shared/features.h"
-
 namespace lavalight {
 namespace {
 
@@ -34,54 +32,47 @@ uint32_t strideThrough(uint32_t groups) {
 
 } // namespace
 
-FusedPaths::State::State(gpu::Device& device, uint32_t slots, bool putsPathsBy)
-    : paths(device, "paths", slots * sizeof(Path), gpu::BufferUse::storage),
-      lanes(device, "lanes", mostLanes(slots) * sizeof(Lane), gpu::BufferUse::storage),
-      waiting(device, "waiting paths", (putsPathsBy ? slots : 1) * sizeof(WaitingPath),
-              gpu::BufferUse::storage),
-      counters(device, "lane counters", sizeof(LaneCounters), gpu::BufferUse::readback) {}
-
-gpu::ResourceTable FusedPaths::State::table() const {
-    gpu::ResourceTable resources;
-    resources.set("Paths", paths);
-    resources.set("Lanes", lanes);
-    resources.set("WaitingPaths", waiting);
-    resources.set("LaneCounts", counters);
-    return resources;
-}
-
 FusedPaths::FusedPaths(gpu::Device& device, const WaveInputs& inputs)
-    : state_(device, inputs.frame.waveSize, (inputs.scene.features() & kFeatureManyTriangles) != 0),
-      commands_(device) {
+    : state_(device, inputs),
+      lanes_(device, "lanes", mostLanes(inputs.frame.waveSize) * sizeof(Lane), gpu::BufferUse::storage),
+      counters_(device, "lane counters", sizeof(LaneCounters), gpu::BufferUse::readback), commands_(device) {
     bands_.reserve(inputs.film.bands().size());
     for (const FilmBand& band : inputs.film.bands())
-        bands_.emplace_back(device, inputs, band, state_.table());
+        bands_.emplace_back(device, inputs, band, table());
     commands_.begin();
-    commands_.fill(state_.lanes, 0); // no lane belongs to a wave yet
+    commands_.fill(lanes_, 0); // no lane belongs to a wave yet
     commands_.submitAndWait();
 }
 
-void FusedPaths::renderWave(size_t bandIndex, WaveRange range) {
+gpu::ResourceTable FusedPaths::table() const {
+    gpu::ResourceTable resources;
+    state_.addTo(resources);
+    resources.set("Lanes", lanes_);
+    resources.set("LaneCounts", counters_);
+    return resources;
+}
+
+void FusedPaths::renderWave(const Transport& transport, size_t bandIndex, WaveRange range) {
     const BoundBand& band = bands_[bandIndex];
     const uint32_t slots = range.pixelCount * range.sampleCount;
     range.slotsPerLane = slotsPerLane(slots);
     range.wave = ++wave_;
     const uint32_t lanes = (slots + range.slotsPerLane - 1) / range.slotsPerLane;
     range.groupStride = strideThrough(groupsFor(lanes));
-    while (advance(band, range, lanes) > 0) {
+    while (advance(band[transport.fusedKernel], range, lanes) > 0) {
     }
     commands_.begin();
-    commands_.dispatch(band["accumulate"], groupsFor(range.pixelCount), pushed(range));
+    commands_.dispatch(band[transport.sink.kernel], groupsFor(transport.sink.over, range), pushed(range));
     commands_.submitAndWait();
     rays_.camera += slots;
 }
 
-uint32_t FusedPaths::advance(const BoundBand& band, const WaveRange& range, uint32_t lanes) {
+uint32_t FusedPaths::advance(const gpu::BoundKernel& paths, const WaveRange& range, uint32_t lanes) {
     commands_.begin();
-    commands_.fill(state_.counters, 0);
-    commands_.dispatch(band["path"], groupsFor(lanes), pushed(range));
+    commands_.fill(counters_, 0);
+    commands_.dispatch(paths, groupsFor(lanes), pushed(range));
     commands_.submitAndWait();
-    const LaneCounters counters = state_.counters.downloadAll<LaneCounters>().front();
+    const LaneCounters counters = counters_.downloadAll<LaneCounters>().front();
     rays_.indirect += counters.indirectRays;
     rays_.shadow += counters.shadowRays;
     return counters.unfinished;

@@ -1,4 +1,4 @@
-// Waves rendered by one kernel that takes whole paths, from the camera to their ends:
+// Waves rendered by one kernel that takes whole paths, from their beginnings to their ends, such as
 // shaders/kernels/path.comp.
 #pragma once
 
@@ -12,19 +12,17 @@ class FusedPaths : public WaveRenderer {
   public:
     FusedPaths(gpu::Device& device, const WaveInputs& inputs);
 
-    void renderWave(size_t band, WaveRange range) override;
+    void renderWave(const Transport& transport, size_t band, WaveRange range) override;
     [[nodiscard]] gpu::KernelTimes kernelTimes() const override { return commands_.times(); }
 
   private:
-    struct State {
-        State(gpu::Device& device, uint32_t slots, bool putsPathsBy);
-        [[nodiscard]] gpu::ResourceTable table() const;
-        gpu::Buffer paths, lanes, waiting, counters;
-    };
+    [[nodiscard]] gpu::ResourceTable table() const;
     // Runs one dispatch and returns the number of lanes that want another.
-    [[nodiscard]] uint32_t advance(const BoundBand& band, const WaveRange& range, uint32_t lanes);
+    [[nodiscard]] uint32_t advance(const gpu::BoundKernel& paths, const WaveRange& range, uint32_t lanes);
 
-    State state_;
+    SlotState state_;
+    gpu::Buffer lanes_;
+    gpu::Buffer counters_;
     std::vector<BoundBand> bands_;
     gpu::Commands commands_;
     uint32_t wave_ = 0; // the one under way

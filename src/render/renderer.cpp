@@ -1,12 +1,13 @@
 #include "render/renderer.h"
 
 #include <algorithm>
-#include <cassert>
 #include <chrono>
 #include <cmath>
 #include <future>
 #include <optional>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "device_scene/scene_features.h"
 #include "render/wave_budget.h"
@@ -25,29 +26,25 @@ static_assert(static_cast<uint32_t>(Projection::perspective) == kProjectionPersp
 // kernel no faster, and the wavefront by a tenth at 2^20; --time and Ctrl-C wait for the end of a wave.
 constexpr uint32_t kWaveSize = 1u << 18;
 
-// Samples that a pixel takes while it is in the wave: they share one update of its film words, and the vector
-// units trace their camera rays together.
-constexpr uint32_t kSamplesTogether = 16;
-
-// Mesa 22.3's lavapipe ends all loops of an invocation without a word after 65,535 turns in sum, and
-// accumulate makes four turns a sample and plane: beyond 16,000 samples it lost some (measured: 1x1 pixel,
-// 65536 samples in one wave).
-constexpr uint32_t kMostSamplesTogether = 4096; // divided by the film's planes
-
-// Samples a pixel takes in a wave where `remaining` are left: more than kSamplesTogether only where the wave
-// would not be full.
-uint32_t samplesPerWave(uint32_t remaining, uint32_t waveSize, const Film& film) {
-    const uint32_t bandPixels =
-        film.bands().front().rows * film.width(); // no band has more rows than the first
-    const auto most = kMostSamplesTogether / static_cast<uint32_t>(film.layout().planes().size());
-    return std::min(remaining, std::clamp(waveSize / bandPixels, kSamplesTogether, most));
-}
-
 // Constant radiance, or what the map's texels are multiplied by.
 glm::vec3 environmentFactor(const Scene& scene, const RenderSettings& settings) {
     const glm::vec3 unscaled =
         scene.environmentMap ? glm::vec3(1.0f) : settings.lighting.constant.value_or(scene.environment);
     return settings.lighting.intensity * unscaled;
+}
+
+bool isTimed(const StopRule& stop) {
+    return stop.seconds > 0.0;
+}
+
+WaveWalk walkThrough(const RenderSettings& settings, const Film& film) {
+    WaveLimits limits;
+    for (const FilmBand& band : film.bands())
+        limits.bandPixels.push_back(band.rows * film.width());
+    limits.planes = static_cast<uint32_t>(film.layout().planes().size());
+    limits.waveSize = settings.work.waveSize;
+    limits.mayStop = settings.stop.isProgressive || isTimed(settings.stop) || settings.stop.targetError > 0.0;
+    return {phasesOf(settings), std::move(limits)};
 }
 
 } // namespace
@@ -169,7 +166,7 @@ Renderer::Renderer(gpu::Device& device, const Scene& scene, const Camera& camera
           device, resolveSchedule(wanted, device.description().isCpu),
           [&](const RenderSettings& settings) {
               return Setup::make(scene, camera, settings, [&](SceneFeatures features) {
-                  return EstimatorKernels(device, settings.work.schedule, settings.estimator, features,
+                  return EstimatorKernels(device, kernelNames(settings), settings.estimator, features,
                                           source);
               });
           },
@@ -181,10 +178,10 @@ Renderer::Renderer(gpu::Device& device, const Scene& scene, const Camera& camera
           device, resolveSchedule(wanted, device.description().isCpu),
           [&](const RenderSettings& settings) {
               return Setup::make(scene, camera, settings, [&](SceneFeatures features) {
-                  if (earlier.serve(settings.work.schedule, settings.estimator, features))
+                  const std::vector<std::string_view> names = kernelNames(settings);
+                  if (earlier.serve(names, settings.estimator, features))
                       return std::move(earlier);
-                  return EstimatorKernels(device, settings.work.schedule, settings.estimator, features,
-                                          source);
+                  return EstimatorKernels(device, names, settings.estimator, features, source);
               });
           },
           source) {}
@@ -198,7 +195,7 @@ Renderer::Renderer(gpu::Device& device, const RenderSettings& settings, Setup se
     : device_(&device), settings_(settings), frame_(setup.frame), sceneFeatures_(setup.scene.features),
       kernels_(std::move(setup.kernels)), scene_(device, setup.scene, source),
       film_(device, settings.image.width, settings.image.height, settings.work.bandRows),
-      waves_(makeWaves(Fresh{settings_, frame_})) {
+      walk_(walkThrough(settings, film_)), waves_(makeWaves(Fresh{settings_, frame_})) {
     settings_.estimator.lightSelection = setup.lightSelection;
 }
 
@@ -235,8 +232,9 @@ void Renderer::restart(const Scene& scene, const Camera& camera, const RenderSet
     copyLights(frame_, fresh.frame);
     const SceneFeatures features = sceneFeatures_ | cameraFeatures(camera);
     const EstimatorSettings& estimator = fresh.settings.estimator;
-    if (!kernels_.serve(fresh.settings.work.schedule, estimator, features))
-        fresh.kernels.emplace(*device_, fresh.settings.work.schedule, estimator, features, source);
+    const std::vector<std::string_view> names = kernelNames(fresh.settings);
+    if (!kernels_.serve(names, estimator, features))
+        fresh.kernels.emplace(*device_, names, estimator, features, source);
     compileChanged(fresh, source);
     if (fresh.settings.image.width != film_.width() || fresh.settings.image.height != film_.height())
         fresh.film.emplace(*device_, fresh.settings.image.width, fresh.settings.image.height,
@@ -246,22 +244,22 @@ void Renderer::restart(const Scene& scene, const Camera& camera, const RenderSet
 
 // Waves bound to the fresh parts, and to the present ones where nothing is fresh.
 std::unique_ptr<WaveRenderer> Renderer::makeWaves(const Fresh& fresh) const {
-    const Schedule schedule = fresh.settings.work.schedule;
-    const std::vector<std::string_view> names = estimatorKernelNames(schedule);
+    const std::vector<Phase> phases = phasesOf(fresh.settings);
     const auto kernel = [&](std::string_view name) -> const gpu::Kernel& {
         const auto found = fresh.changed.find(name);
         return found != fresh.changed.end() ? found->second
                                             : (fresh.kernels ? *fresh.kernels : kernels_)[name];
     };
     const AlbedoTable& albedo = fresh.albedoTable ? *fresh.albedoTable : scene_.albedoTable();
+    const Film& film = fresh.film ? *fresh.film : film_;
     return makeWaveRenderer(
-        *device_, schedule,
-        {scene_, albedo.buffer, fresh.film ? *fresh.film : film_, fresh.frame, names, kernel});
+        *device_, {phases, fresh.settings.work.schedule, scene_, albedo.buffer, film, fresh.frame, kernel});
 }
 
 // Everything that may fail comes first; what is bound to kernels and film goes before them.
 void Renderer::startAnew(Fresh fresh) {
     std::unique_ptr<WaveRenderer> waves = makeWaves(fresh);
+    WaveWalk walk = walkThrough(fresh.settings, fresh.film ? *fresh.film : film_);
     if (!fresh.film)
         emptyFilm();
     waves_ = std::move(waves);
@@ -275,13 +273,13 @@ void Renderer::startAnew(Fresh fresh) {
     filmIsEmptied_ = true;
     settings_ = fresh.settings;
     frame_ = fresh.frame;
-    position_ = {};
+    walk_ = std::move(walk);
 }
 
 // A failure here leaves the film emptied, or not.
 void Renderer::emptyFilm() {
     filmIsEmptied_ = false;
-    position_ = {};
+    walk_.startAgain();
     film_.clear();
     filmIsEmptied_ = true;
 }
@@ -296,8 +294,8 @@ StopReason Renderer::render(const KeepGoing& keepGoing) {
     for (;;) {
         // The error is asked for before a pass rather than after it: a render that is continued there has to
         // ask as well.
-        const bool isPassOver = position_.passSamples == 0;
-        if (settings_.stop.targetError > 0.0 && isPassOver && position_.samplesDone > 1 &&
+        const bool isPassOver = position().passSamples == 0;
+        if (settings_.stop.targetError > 0.0 && isPassOver && position().samplesDone > 1 &&
             errorEstimate(rendering()) <= settings_.stop.targetError)
             return StopReason::targetError;
         if (isDone())
@@ -306,71 +304,30 @@ StopReason Renderer::render(const KeepGoing& keepGoing) {
         step(budget.slots());
         budget.took(secondsSince(waveStart));
         const double seconds = secondsSince(start);
-        if (!keepGoing(isTimed() ? std::max(fractionDone(), seconds / settings_.stop.seconds)
-                                 : fractionDone()))
+        const double fraction = walk_.fractionDone();
+        if (!keepGoing(isTimed(settings_.stop) ? std::max(fraction, seconds / settings_.stop.seconds)
+                                               : fraction))
             return StopReason::interrupted;
-        if (isTimed() && seconds >= settings_.stop.seconds)
+        if (isTimed(settings_.stop) && seconds >= settings_.stop.seconds)
             return StopReason::time;
     }
 }
 
-FilmProgress Renderer::progress() const {
-    const uint32_t firstRow = film_.bands()[position_.band].firstRow;
-    return {position_.samplesDone, position_.passSamples, firstRow * film_.width() + position_.pixel};
-}
-
 void Renderer::continueFrom(const FilmProgress& progress, const RawFilm& film) {
-    assert(progress.passSamples <= settings_.work.waveSize);
     waves_->finish();
     filmIsEmptied_ = false;
-    position_ = {};
+    walk_.startAgain();
     film_.restore(film);
     filmIsEmptied_ = true;
-    // Pixels of each band but the last.
-    const uint32_t bandPixels = film_.bands().front().rows * film_.width();
-    position_ = {progress.samples, progress.passSamples, progress.passPixels / bandPixels,
-                 progress.passPixels % bandPixels};
+    walk_.continueFrom(progress);
 }
 
 void Renderer::step(uint32_t mostSlots) {
-    assert(!isDone());
     if (!filmIsEmptied_)
         emptyFilm();
-    RenderPosition& at = position_;
-    if (at.passSamples == 0)
-        at.passSamples = nextPass();
-    const FilmBand& rows = film_.bands()[at.band];
-    const uint32_t first = rows.firstRow * film_.width();
-    const uint32_t pixels = rows.rows * film_.width();
-    const uint32_t slots = std::min(mostSlots, settings_.work.waveSize);
-    const uint32_t count = std::clamp(slots / at.passSamples, 1u, pixels - at.pixel);
-    waves_->renderWave(at.band, {first + at.pixel, count, settings_.image.firstSample + at.samplesDone,
-                                 at.passSamples, first, 0, 0, 0, 0});
-    at.pixel += count;
-    if (at.pixel == pixels) {
-        at.pixel = 0;
-        ++at.band;
-    }
-    if (at.band == film_.bands().size()) {
-        at.band = 0;
-        at.samplesDone += at.passSamples;
-        at.passSamples = 0;
-    }
-}
-
-// A render that may stop at any moment starts with passes of few samples, so that every pixel has some.
-uint32_t Renderer::nextPass() const {
-    const uint32_t done = position_.samplesDone;
-    const uint32_t count = samplesPerWave(settings_.stop.samples - done, settings_.work.waveSize, film_);
-    const bool mayStop = settings_.stop.isProgressive || isTimed() || settings_.stop.targetError > 0.0;
-    return mayStop ? std::min(count, std::max(1u, done)) : count;
-}
-
-double Renderer::fractionDone() const {
-    const double pixels = static_cast<double>(film_.width()) * film_.height();
-    const uint32_t row = isDone() ? 0 : film_.bands()[position_.band].firstRow;
-    const double before = static_cast<double>(row) * film_.width() + position_.pixel;
-    return (position_.samplesDone + position_.passSamples * before / pixels) / settings_.stop.samples;
+    const Wave wave = walk_.next(mostSlots);
+    waves_->renderWave(*wave.transport, wave.band, wave.range);
+    walk_.goPast(wave);
 }
 
 double errorEstimate(const Rendering& rendering) {

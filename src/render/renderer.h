@@ -17,17 +17,10 @@
 #include "render/film.h"
 #include "render/settings.h"
 #include "render/wave_renderer.h"
+#include "render/wave_walk.h"
 #include "scene/scene.h"
 
 namespace lavalight {
-
-// The next wave of a render. Passes take samples of all pixels, waves go through them band by band.
-struct RenderPosition {
-    uint32_t samplesDone = 0; // samples of every pixel by the passes before
-    uint32_t passSamples = 0; // samples a pixel in this pass; 0: it is yet to start
-    size_t band = 0;
-    uint32_t pixel = 0; // next pixel of the band
-};
 
 class Renderer {
   public:
@@ -54,12 +47,12 @@ class Renderer {
     // pixel's.
     void step(uint32_t mostSlots);
     // Whether all samples are taken.
-    [[nodiscard]] bool isDone() const { return position_.samplesDone >= settings_.stop.samples; }
-    [[nodiscard]] const RenderPosition& position() const { return position_; }
+    [[nodiscard]] bool isDone() const { return walk_.isDone(); }
+    [[nodiscard]] const RenderPosition& position() const { return walk_.position(); }
     // progress() is the position whatever the bands; continueFrom() returns to it with the film that belongs
     // to it, and what follows has the bits that it would have had. The pass must not take more samples at
     // once than there are slots.
-    [[nodiscard]] FilmProgress progress() const;
+    [[nodiscard]] FilmProgress progress() const { return walk_.progress(); }
     void continueFrom(const FilmProgress& progress, const RawFilm& film);
 
     // Goes on with another view, settings or kernels, and an empty film. The scene stays on the device;
@@ -105,9 +98,6 @@ class Renderer {
     [[nodiscard]] std::unique_ptr<WaveRenderer> makeWaves(const Fresh& fresh) const;
     void startAnew(Fresh fresh);
     void emptyFilm();
-    [[nodiscard]] uint32_t nextPass() const;
-    [[nodiscard]] double fractionDone() const;
-    [[nodiscard]] bool isTimed() const { return settings_.stop.seconds > 0.0; }
 
     struct Setup;
     Renderer(gpu::Device& device, const RenderSettings& settings,
@@ -121,8 +111,8 @@ class Renderer {
     EstimatorKernels kernels_;
     GpuScene scene_;
     Film film_;
+    WaveWalk walk_;
     std::unique_ptr<WaveRenderer> waves_;
-    RenderPosition position_;
     bool filmIsEmptied_ = true; // false: emptying it failed, and has to be done before the first sample
 };
 

@@ -2,15 +2,14 @@
 
 #include <algorithm>
 #include <cassert>
-#include <charconv>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <variant>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/parse.h"
 
 namespace lavalight {
 namespace {
@@ -22,14 +21,6 @@ std::string joined(const NamedValues& values, std::string_view separator) {
     for (const Name& name : values.names)
         text += fmt::format("{}{}", text.empty() ? "" : separator, name.name);
     return text;
-}
-
-template <typename Number>
-std::optional<Number> parseNumber(std::string_view text) {
-    Number value{};
-    const char* const last = text.data() + text.size();
-    const auto [end, error] = std::from_chars(text.data(), last, value);
-    return error == std::errc() && end == last ? std::optional(value) : std::nullopt;
 }
 
 std::string inLowerCase(std::string_view text) {

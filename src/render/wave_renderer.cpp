@@ -1,6 +1,7 @@
 #include "render/wave_renderer.h"
 
 #include <cassert>
+#include <string>
 #include <utility>
 
 #include "render/fused_paths.h"
@@ -18,12 +19,28 @@ gpu::Buffer uploadFrame(gpu::Device& device, FrameParameters parameters, const F
 
 } // namespace
 
-std::unique_ptr<WaveRenderer> makeWaveRenderer(gpu::Device& device, Schedule schedule,
-                                               const WaveInputs& inputs) {
-    assert(schedule != Schedule::automatic);
-    if (schedule == Schedule::fused)
+std::unique_ptr<WaveRenderer> makeWaveRenderer(gpu::Device& device, const WaveInputs& inputs) {
+    assert(inputs.schedule != Schedule::automatic);
+    if (inputs.schedule == Schedule::fused)
         return std::make_unique<FusedPaths>(device, inputs);
     return std::make_unique<Wavefront>(device, inputs);
+}
+
+SlotState::SlotState(gpu::Device& device, const WaveInputs& inputs) {
+    const SceneFeatures features = inputs.scene.features();
+    for (const Phase& phase : inputs.phases)
+        for (const SlotBuffer& wanted : stateOf(*phase.transport, inputs.schedule)) {
+            const bool isUsed = wanted.onlyWith == 0 || (wanted.onlyWith & features) != 0;
+            const uint64_t slots = isUsed ? inputs.frame.waveSize : 1;
+            if (!buffers_.contains(wanted.block))
+                buffers_.try_emplace(wanted.block, device, std::string(wanted.label), slots * wanted.bytes,
+                                     gpu::BufferUse::storage);
+        }
+}
+
+void SlotState::addTo(gpu::ResourceTable& resources) const {
+    for (const auto& [block, buffer] : buffers_)
+        resources.set(block, buffer);
 }
 
 BoundBand::BoundBand(gpu::Device& device, const WaveInputs& inputs, const FilmBand& band,
@@ -34,7 +51,7 @@ BoundBand::BoundBand(gpu::Device& device, const WaveInputs& inputs, const FilmBa
     resources.set("Tallies", inputs.film.tallies());
     resources.set("Frame", frame_);
     resources.set("Film", band.sums);
-    for (const std::string_view name : inputs.kernelNames)
+    for (const std::string_view name : kernelNames(inputs.phases, inputs.schedule))
         kernels_.try_emplace(name, device, inputs.kernel(name), resources);
 }
 
@@ -46,6 +63,14 @@ const gpu::BoundKernel& BoundBand::operator[](std::string_view name) const {
 
 uint32_t groupsFor(uint32_t invocations) {
     return (invocations + kWorkgroupSize - 1) / kWorkgroupSize;
+}
+
+uint32_t groupsFor(Over over, const WaveRange& range) {
+    if (over == Over::once)
+        return 1;
+    if (over == Over::pixels)
+        return groupsFor(range.pixelCount);
+    return groupsFor(range.pixelCount * range.sampleCount); // a slot has at most one ray of each kind
 }
 
 std::span<const std::byte> pushed(const WaveRange& range) {

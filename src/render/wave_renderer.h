@@ -17,7 +17,7 @@
 #include "gpu/commands.h"
 #include "gpu/kernel.h"
 #include "render/film.h"
-#include "render/settings.h"
+#include "render/phase.h"
 #include "shared/frame.h"
 #include "shared/wavefront.h"
 
@@ -29,9 +29,10 @@ class WaveRenderer {
     WaveRenderer(const WaveRenderer&) = delete; // bound kernels refer to members
     WaveRenderer& operator=(const WaveRenderer&) = delete;
 
-    // Takes range.sampleCount samples for each of range.pixelCount pixels of band `band` and adds them to the
-    // film, at the latest by finish(). pixelCount * sampleCount must not exceed the wave size.
-    virtual void renderWave(size_t band, WaveRange range) = 0;
+    // Takes range.sampleCount samples by `transport` for each of range.pixelCount pixels of band `band` and
+    // adds them to the film, at the latest by finish(). pixelCount * sampleCount must not exceed the wave
+    // size, and one of the phases must have the transport.
+    virtual void renderWave(const Transport& transport, size_t band, WaveRange range) = 0;
 
     // Waits for waves that are still under way: until then, neither the film nor what follows is that of all
     // waves.
@@ -52,27 +53,39 @@ class WaveRenderer {
 };
 
 // Inputs that decide how waves are rendered. Kernels, and the buffers of scene, table and film, must outlive
-// the renderer; `frame` says what scene, camera and settings decide (the size of a band is filled in).
+// the renderer; `frame` says what scene, camera and settings decide (the size of a band is filled in). The
+// schedule must not be automatic.
 struct WaveInputs {
+    std::span<const Phase> phases;
+    Schedule schedule;
     const GpuScene& scene;
     const gpu::Buffer& albedoTable; // the scene's or another
     const Film& film;
     const FrameParameters& frame;
-    std::span<const std::string_view> kernelNames; // kernels of the schedule: estimatorKernelNames()
     std::function<const gpu::Kernel&(std::string_view name)> kernel;
 };
 
-// The schedule must not be automatic. The device must outlive the renderer.
-[[nodiscard]] std::unique_ptr<WaveRenderer> makeWaveRenderer(gpu::Device& device, Schedule schedule,
-                                                             const WaveInputs& inputs);
+// The device must outlive the renderer.
+[[nodiscard]] std::unique_ptr<WaveRenderer> makeWaveRenderer(gpu::Device& device, const WaveInputs& inputs);
 
-// The kernels of a schedule, bound to one band of the film.
+// The state of the transports: buffers with a record for each path slot.
+class SlotState {
+  public:
+    SlotState(gpu::Device& device, const WaveInputs& inputs);
+
+    void addTo(gpu::ResourceTable& resources) const;
+
+  private:
+    std::map<std::string_view, gpu::Buffer> buffers_; // by block
+};
+
+// The kernels of the phases, bound to one band of the film.
 class BoundBand {
   public:
     // `state`: the buffers that all bands share.
     BoundBand(gpu::Device& device, const WaveInputs& inputs, const FilmBand& band, gpu::ResourceTable state);
 
-    // The kernel must be one of the schedule's.
+    // The kernel must be one of the phases'.
     [[nodiscard]] const gpu::BoundKernel& operator[](std::string_view name) const;
 
   private:
@@ -81,6 +94,8 @@ class BoundBand {
 };
 
 [[nodiscard]] uint32_t groupsFor(uint32_t invocations);
+// Workgroups for the most invocations that a kernel can have in a wave.
+[[nodiscard]] uint32_t groupsFor(Over over, const WaveRange& range);
 [[nodiscard]] std::span<const std::byte> pushed(const WaveRange& range);
 
 } // namespace lavalight

@@ -12,33 +12,23 @@ constexpr uint32_t kBouncesPerSubmission = 8;
 
 } // namespace
 
-Wavefront::State::State(gpu::Device& device, uint32_t slots)
-    : rays(device, "rays", slots * sizeof(Ray), gpu::BufferUse::storage),
-      hits(device, "hits", slots * sizeof(Hit), gpu::BufferUse::storage),
-      paths(device, "paths", slots * sizeof(Path), gpu::BufferUse::storage),
-      shadowRays(device, "shadow rays", slots * sizeof(ShadowRay), gpu::BufferUse::storage),
-      queues(device, "queues", 3 * slots * sizeof(uint32_t), gpu::BufferUse::storage),
-      dispatchSizes(device, "dispatch sizes", 2 * sizeof(DispatchSize), gpu::BufferUse::storage) {}
-
 Wavefront::Turn::Turn(gpu::Device& device, uint32_t maxBounces)
     : counters(device, "bounce counters", (maxBounces + 2) * sizeof(BounceCounters),
                gpu::BufferUse::readback) {}
 
 gpu::ResourceTable Wavefront::tableOf(const Turn& turn) const {
     gpu::ResourceTable resources;
-    resources.set("Rays", state_.rays);
-    resources.set("Hits", state_.hits);
-    resources.set("Paths", state_.paths);
-    resources.set("ShadowRays", state_.shadowRays);
-    resources.set("Queues", state_.queues);
+    state_.addTo(resources);
+    resources.set("Queues", queues_);
     resources.set("Counters", turn.counters);
-    resources.set("DispatchSizes", state_.dispatchSizes);
+    resources.set("DispatchSizes", dispatchSizes_);
     return resources;
 }
 
 Wavefront::Wavefront(gpu::Device& device, const WaveInputs& inputs)
-    : maxBounces_(inputs.frame.maxBounces), runsAhead_(device.runsAhead()),
-      state_(device, inputs.frame.waveSize) {
+    : maxBounces_(inputs.frame.maxBounces), runsAhead_(device.runsAhead()), state_(device, inputs),
+      queues_(device, "queues", 3 * inputs.frame.waveSize * sizeof(uint32_t), gpu::BufferUse::storage),
+      dispatchSizes_(device, "dispatch sizes", 2 * sizeof(DispatchSize), gpu::BufferUse::storage) {
     const size_t turns = runsAhead_ ? 2 : 1;
     turns_.reserve(turns); // they stay at their addresses
     for (size_t i = 0; i < turns; ++i) {
@@ -63,14 +53,15 @@ void Wavefront::submit(gpu::Commands& commands) const {
         commands.wait();
 }
 
-void Wavefront::renderWave(size_t bandIndex, WaveRange range) {
+void Wavefront::renderWave(const Transport& transport, size_t bandIndex, WaveRange range) {
     gpu::Commands* commands = &startRecording();
     turn_ = (turn_ + 1) % turns_.size();
     Turn& turn = turns_[turn_];
     countRays(turn); // rays of the wave before the one before, which is done
     const BoundBand& band = bands_[turn_][bandIndex];
     commands->fill(turn.counters, 0);
-    commands->dispatch(band["generate"], groupsFor(range.pixelCount * range.sampleCount), pushed(range));
+    for (const KernelStep& step : transport.start)
+        record(*commands, band, step, range);
     for (uint32_t bounce = 0; bounce <= maxBounces_; ++bounce) {
         if (bounce > 0 && bounce % kBouncesPerSubmission == 0) {
             submit(*commands);
@@ -78,9 +69,11 @@ void Wavefront::renderWave(size_t bandIndex, WaveRange range) {
             if (isOver(turn, bounce))
                 break;
         }
-        recordBounce(*commands, band, range, bounce);
+        range.bounce = bounce;
+        for (const KernelStep& step : transport.bounce)
+            record(*commands, band, step, range);
     }
-    commands->dispatch(band["accumulate"], groupsFor(range.pixelCount), pushed(range));
+    record(*commands, band, transport.sink, range);
     turn.isCounted = false;
     submit(*commands);
     if (!runsAhead_)
@@ -111,21 +104,17 @@ bool Wavefront::isOver(const Turn& turn, uint32_t bounce) const {
     return known > 0 && turn.counters.downloadAll<BounceCounters>()[known].rays == 0;
 }
 
-void Wavefront::recordBounce(gpu::Commands& commands, const BoundBand& band, WaveRange range,
-                             uint32_t bounce) const {
-    constexpr uint64_t connectSize = 0;
+// How long a queue is, the device alone knows; but at first every slot has a ray.
+void Wavefront::record(gpu::Commands& commands, const BoundBand& band, const KernelStep& step,
+                       const WaveRange& range) const {
+    constexpr uint64_t shadowSize = 0;
     constexpr uint64_t raySize = sizeof(DispatchSize);
-    range.bounce = bounce;
-    if (bounce == 0) {
-        const uint32_t groups = groupsFor(range.pixelCount * range.sampleCount);
-        commands.dispatch(band["extend"], groups, pushed(range));
-        commands.dispatch(band["shade"], groups, pushed(range));
-    } else {
-        commands.dispatchIndirect(band["extend"], state_.dispatchSizes, raySize, pushed(range));
-        commands.dispatchIndirect(band["shade"], state_.dispatchSizes, raySize, pushed(range));
-    }
-    commands.dispatch(band["prepare"], 1, pushed(range));
-    commands.dispatchIndirect(band["connect"], state_.dispatchSizes, connectSize, pushed(range));
+    if (step.over == Over::shadowRays)
+        commands.dispatchIndirect(band[step.kernel], dispatchSizes_, shadowSize, pushed(range));
+    else if (step.over == Over::rays && range.bounce > 0)
+        commands.dispatchIndirect(band[step.kernel], dispatchSizes_, raySize, pushed(range));
+    else
+        commands.dispatch(band[step.kernel], groupsFor(step.over, range), pushed(range));
 }
 
 void Wavefront::countRays(Turn& turn) {

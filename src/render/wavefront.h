@@ -1,4 +1,4 @@
-// The wavefront: a wave of path slots taken bounce by bounce through the kernels of the estimator.
+// The wavefront: a wave of path slots taken bounce by bounce through the kernels of its transport.
 #pragma once
 
 #include <cstdint>
@@ -12,16 +12,11 @@ class Wavefront : public WaveRenderer {
   public:
     Wavefront(gpu::Device& device, const WaveInputs& inputs);
 
-    void renderWave(size_t band, WaveRange range) override;
+    void renderWave(const Transport& transport, size_t band, WaveRange range) override;
     void finish() override;
     [[nodiscard]] gpu::KernelTimes kernelTimes() const override;
 
   private:
-    // One element per slot, but for queues (three of them) and the few words at the end.
-    struct State {
-        State(gpu::Device& device, uint32_t slots);
-        gpu::Buffer rays, hits, paths, shadowRays, queues, dispatchSizes;
-    };
     // One of the two waves that may be under way. They share their state, since the device takes one after
     // the other, but the host looks at the counters of the first while the second counts.
     struct Turn {
@@ -33,12 +28,15 @@ class Wavefront : public WaveRenderer {
     gpu::Commands& startRecording();
     void submit(gpu::Commands& commands) const;
     [[nodiscard]] bool isOver(const Turn& turn, uint32_t bounce) const;
-    void recordBounce(gpu::Commands& commands, const BoundBand& band, WaveRange range, uint32_t bounce) const;
+    void record(gpu::Commands& commands, const BoundBand& band, const KernelStep& step,
+                const WaveRange& range) const;
     void countRays(Turn& turn);
 
     uint32_t maxBounces_;
     bool runsAhead_;
-    State state_;
+    SlotState state_;
+    gpu::Buffer queues_; // three
+    gpu::Buffer dispatchSizes_;
     std::vector<Turn> turns_;                   // two
     std::vector<std::vector<BoundBand>> bands_; // bands of each turn
     std::vector<gpu::Commands> commands_;       // two, in turn; they end, waiting, before what they use does

@@ -55,6 +55,11 @@ void RenderSession::use(const std::shared_ptr<ShaderOverlay>& overlay) {
     source_ = sourceOf(overlay);
 }
 
+void RenderSession::use(RenderSettings settings) {
+    settings.provenance.changedShaders = std::move(plan_.settings.provenance.changedShaders);
+    plan_.settings = std::move(settings);
+}
+
 // The first scene of an animation speaks for all: its warnings, its stand-in camera, its image's size.
 PreparedScene RenderSession::load(const ImportOptions& moment) {
     Scene scene = loadScene(plan_, moment);
@@ -62,7 +67,7 @@ PreparedScene RenderSession::load(const ImportOptions& moment) {
     if (!scene.hasOwnCamera)
         standIn_ = camera;
     PreparedScene prepared = complete(std::move(scene), camera, plan_.settings);
-    if (!device_)
+    if (!std::exchange(isWarned_, true))
         logWarnings(prepared.scene);
     plan_.settings = prepared.settings;
     return prepared;
@@ -84,9 +89,9 @@ RenderJob RenderSession::prepare(const ImportOptions& moment, const Outputs& out
     job.report.import = moment;
     job.report.camera = prepared.camera.name;
     job.watch.lap("load");
-    if (!device_)
-        device_.emplace(plan_.device);
-    job.device = &*device_;
+    if (device_ == nullptr)
+        device_ = &ownDevice_.emplace(plan_.device);
+    job.device = device_;
     job.watch.lap("device");
     job.renderer = makeRenderer(prepared);
     if (!outputs.png.empty() && !toneMapper_)

@@ -43,11 +43,15 @@ class RenderSession {
   public:
     // Opens no device yet.
     explicit RenderSession(RenderPlan plan) : plan_(std::move(plan)) {}
+    // Renders on a device that is open already and outlives the session, whatever the plan says of devices.
+    RenderSession(RenderPlan plan, gpu::Device& device) : plan_(std::move(plan)), device_(&device) {}
     RenderSession(const RenderSession&) = delete; // jobs refer to the device
     RenderSession& operator=(const RenderSession&) = delete;
 
     // Shaders for the jobs to come and for the record; null: those of the build.
     void use(const std::shared_ptr<ShaderOverlay>& overlay);
+    // Settings for the jobs to come, but for the record of shaders.
+    void use(RenderSettings settings);
 
     // Loads the scene, opens the device if this is the first job, and compiles the kernels that `outputs`
     // need. Throws Error or UsageError.
@@ -72,7 +76,9 @@ class RenderSession {
     RenderPlan plan_;
     KernelSource source_ = embeddedKernel;
     std::optional<Camera> standIn_;
-    std::optional<gpu::Device> device_;
+    bool isWarned_ = false; // whether the warnings of a scene are told
+    std::optional<gpu::Device> ownDevice_;
+    gpu::Device* device_ = nullptr; // null: not opened yet
     std::optional<EstimatorKernels> kernels_;
     std::optional<ToneMapper> toneMapper_;
 };

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/version.h"
+#include "render/phase.h"
 #include "render/setting_names.h"
 
 namespace lavalight {
@@ -66,6 +67,15 @@ Json errorJson(const RenderReport& report) {
             {"estimatedRelMse", report.errorEstimate},
             {"isUpperBound", report.settings.estimator.sampler == Sampler::sobol},
             {"efficiency", cost > 0.0 ? 1.0 / cost : 0.0}};
+}
+
+Json phasesJson(const RenderSettings& settings) {
+    Json json = Json::array();
+    for (const Phase& phase : phasesOf(settings))
+        json.push_back({{"transport", phase.transport->name},
+                        {"firstSample", phase.firstSample},
+                        {"samples", phase.samples}});
+    return json;
 }
 
 Json ledgerJson(const std::vector<LedgerEntry>& ledger) {
@@ -140,6 +150,7 @@ std::string reportJson(const RenderReport& report) {
     json["settings"] = pairsJson(describeOptions(report));
     if (report.tone)
         json["png"] = {{"tonemap", nameOf(report.tone->curve)}, {"exposure", report.tone->exposure}};
+    json["phases"] = phasesJson(report.settings);
     json["waveSize"] = report.settings.work.waveSize;
     json["complete"] = report.stop != StopReason::interrupted;
     json["stoppedBy"] = nameOf(report.stop);

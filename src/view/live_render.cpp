@@ -196,7 +196,7 @@ void LiveRender::perform(Work& work, const Task& task) {
             const std::lock_guard lock(mutex_);
             news_.inspection = std::move(inspection);
         } else {
-            std::string message = saveImage(work.sides[0], work.tone, device_, {task.exr, task.png});
+            std::string message = saveImage(work.sides[0], work.tone, device_, {task.exr, task.png, {}, {}});
             const std::lock_guard lock(mutex_);
             news_.messages.push_back(std::move(message));
         }

@@ -13,6 +13,8 @@ Metadata metadataOf(const LiveSide& side, const gpu::Device& device, const Rende
     const LiveRequest& request = side.request();
     RenderReport report;
     fillInputs(report, *request.scene, side.renderer().settings());
+    if (request.shaders)
+        report.settings.provenance.changedShaders = request.shaders->changed();
     report.camera = request.camera.name;
     report.renderSeconds = side.seconds();
     report.stop = side.hasWork() ? StopReason::interrupted : StopReason::samples;
@@ -23,7 +25,7 @@ Metadata metadataOf(const LiveSide& side, const gpu::Device& device, const Rende
 } // namespace
 
 std::string saveImage(const LiveSide& side, ToneMapper& tone, const gpu::Device& device,
-                      const ImageFiles& files) {
+                      const Outputs& files) {
     std::string written;
     if (!files.exr.empty()) {
         const Rendering rendering = side.renderer().rendering();

@@ -5,18 +5,14 @@
 
 #include "gpu/device.h"
 #include "render/tone_mapper.h"
+#include "session/outputs.h"
 #include "view/live_side.h"
 
 namespace lavalight {
 
-struct ImageFiles {
-    std::string exr; // empty: none
-    std::string png;
-};
-
-// Writes the image so far, of which there must be one: as `lavalight render` does, header and all, and as the
-// window shows it. Returns a line that says what was written. Throws Error.
+// Writes the image so far, of which there must be one: EXR as `lavalight render` does, header and all, and
+// PNG as the window shows it. Returns a line that says what was written. Throws Error.
 [[nodiscard]] std::string saveImage(const LiveSide& side, ToneMapper& tone, const gpu::Device& device,
-                                    const ImageFiles& files);
+                                    const Outputs& files);
 
 } // namespace lavalight

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "base/error.h"
-#include "render/estimator_kernels.h"
 
 namespace lavalight {
 namespace {
@@ -14,14 +13,19 @@ constexpr std::chrono::milliseconds kLookEvery(100);
 
 } // namespace
 
-ShaderWatcher::ShaderWatcher(std::string folder, std::shared_ptr<ShaderOverlay> first, Schedule schedule,
+ShaderWatcher::ShaderWatcher(std::string folder, std::shared_ptr<ShaderOverlay> first, KernelNames names,
                              std::function<void()> wake)
     : folder_(std::move(folder)), wake_(std::move(wake)), saves_(folder_), overlay_(std::move(first)),
-      schedule_(schedule), thread_([this] { run(); }) {}
+      names_(std::move(names)), thread_([this] { run(); }) {}
 
 ShaderWatcher::~ShaderWatcher() {
     isEnding_ = true;
     thread_.join();
+}
+
+void ShaderWatcher::use(KernelNames names) {
+    const std::lock_guard lock(mutex_);
+    names_ = std::move(names);
 }
 
 std::optional<ShaderWatcher::Change> ShaderWatcher::take() {
@@ -37,9 +41,9 @@ void ShaderWatcher::run() {
     }
 }
 
-ShaderWatcher::Contents ShaderWatcher::contentsOf(ShaderOverlay& overlay) const {
+ShaderWatcher::Contents ShaderWatcher::contentsOf(ShaderOverlay& overlay, const KernelNames& names) {
     Contents contents;
-    for (const std::string_view name : estimatorKernelNames(schedule_))
+    for (const std::string_view name : names)
         contents[std::string(name)] = overlay.kernel(name).content;
     for (const char* name : {"albedo", "tonemap"})
         contents[name] = overlay.kernel(name).content;
@@ -48,10 +52,14 @@ ShaderWatcher::Contents ShaderWatcher::contentsOf(ShaderOverlay& overlay) const 
 
 void ShaderWatcher::look(const std::vector<std::string>& files) {
     Change change{files, {}, nullptr, {}};
+    const KernelNames names = [&] {
+        const std::lock_guard lock(mutex_);
+        return names_;
+    }();
     try {
         auto now = std::make_shared<ShaderOverlay>(folder_);
-        const Contents before = contentsOf(*overlay_);
-        for (const auto& [name, content] : contentsOf(*now))
+        const Contents before = contentsOf(*overlay_, names);
+        for (const auto& [name, content] : contentsOf(*now, names))
             if (before.at(name) != content)
                 change.kernels.push_back(name);
         if (!change.kernels.empty())

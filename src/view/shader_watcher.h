@@ -8,27 +8,29 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <vector>
 
 #include "base/os/file_watch.h"
 #include "kernels/shader_overlay.h"
-#include "render/settings.h"
 
 namespace lavalight {
 
 class ShaderWatcher {
   public:
+    using KernelNames = std::vector<std::string_view>; // by kernelNames()
+
     // `first`: the folder as it is now. `wake` is called, from another thread, when there is a change. Throws
     // Error where there is no such folder.
-    ShaderWatcher(std::string folder, std::shared_ptr<ShaderOverlay> first, Schedule schedule,
+    ShaderWatcher(std::string folder, std::shared_ptr<ShaderOverlay> first, KernelNames names,
                   std::function<void()> wake);
     ~ShaderWatcher();
     ShaderWatcher(const ShaderWatcher&) = delete;
     ShaderWatcher& operator=(const ShaderWatcher&) = delete;
 
-    // The schedule whose kernels matter from now on; not automatic.
-    void use(Schedule schedule) { schedule_ = schedule; }
+    // Names of the estimator's kernels that matter from now on.
+    void use(KernelNames names);
 
     struct Change {
         std::vector<std::string> files;
@@ -43,16 +45,16 @@ class ShaderWatcher {
 
     void run();
     void look(const std::vector<std::string>& files);
-    [[nodiscard]] Contents contentsOf(ShaderOverlay& overlay) const;
+    [[nodiscard]] static Contents contentsOf(ShaderOverlay& overlay, const KernelNames& names);
     void keep(Change change);
 
     std::string folder_;
     std::function<void()> wake_;
     FileWatch saves_;
     std::shared_ptr<ShaderOverlay> overlay_; // the newest that compiles
-    std::atomic<Schedule> schedule_;
     std::atomic<bool> isEnding_ = false;
-    std::mutex mutex_;
+    std::mutex mutex_; // guards names_ and change_
+    KernelNames names_;
     std::optional<Change> change_;
     std::thread thread_; // last: started when all else is there
 };

@@ -10,6 +10,8 @@
 #include <imgui.h>
 
 #include "base/log.h"
+#include "image/environment_file.h"
+#include "render/phase.h"
 #include "render/renderer.h"
 #include "session/lit_scene.h"
 #include "view/controls.h"
@@ -47,11 +49,6 @@ Scene loadOrder(const SceneOrder& order) {
     return loadLitScene(order.source, order.import, order.lighting);
 }
 
-bool isEnvironment(const std::string& path) {
-    const std::string extension = std::filesystem::path(path).extension().string();
-    return extension == ".hdr" || extension == ".exr" || extension == ".pic";
-}
-
 } // namespace
 
 Viewer::Viewer(ViewerConfig config)
@@ -60,7 +57,7 @@ Viewer::Viewer(ViewerConfig config)
       shaders_(std::move(config.shaders)) {
     view_.settings = resolveSchedule(view_.settings, render_.device().isCpu);
     if (!config.watched.empty())
-        watcher_.emplace(config.watched, shaders_, view_.settings.work.schedule, &Window::wake);
+        watcher_.emplace(config.watched, shaders_, kernelNames(view_.settings), &Window::wake);
     ImGui::GetIO().FontGlobalScale = window_.textScale() / window_.pixelsPerPoint().y;
 }
 
@@ -196,7 +193,7 @@ void Viewer::takeKeys() {
 
 void Viewer::takeDrops() {
     for (const std::string& path : window_.takeDrops()) {
-        if (isEnvironment(path)) {
+        if (hasEnvironmentExtension(path)) {
             view_.settings.lighting.mapFile = path;
             view_.settings.lighting.constant.reset();
             reload();
@@ -280,7 +277,7 @@ void Viewer::send() {
     if (inspection_ && (!sent_ || restartsImage(*sent_, request) != Restart::nothing))
         inspection_.reset(); // it was of another image
     if (watcher_)
-        watcher_->use(request.settings.work.schedule);
+        watcher_->use(kernelNames(request.settings));
     sent_ = request;
     isReady_ = false;
     render_.show(request);

@@ -2,7 +2,7 @@
 // Passes on what the scene loads through texel buffers, as loaded.
 #include "lib/math/ray_offset.glsl"
 #include "scene/light.glsl"
-#include "scene/tangent_frame.glsl"
+#include "scene/tangent_basis.glsl"
 #include "scene/intersect.glsl"
 
 layout(local_size_x = 1) in;

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "compare/statistics.h"
 #include "support/render_scene.h"
 #include "support/scene_builder.h"
 #include "support/test_device.h"

@@ -78,7 +78,7 @@ class OtherTrees : public DeviceTest {
         settings_.work.waveSize = kSize * kSize * settings_.stop.samples;
         const SceneFeatures features =
             sceneFeatures(scene_, lights_) | cameraFeatures(scene_.cameras.front());
-        kernels_.emplace(device(), schedule, settings_.estimator, features, source);
+        kernels_.emplace(device(), kernelNames(settings_), settings_.estimator, features, source);
     }
     [[nodiscard]] std::vector<uint32_t> filmWith(const Bvh& tree) {
         SceneData data = packScene(scene_, lights_);
@@ -89,10 +89,10 @@ class OtherTrees : public DeviceTest {
         Film film(device(), kSize, kSize, 0);
         film.clear();
         const auto kernel = [&](std::string_view name) -> const gpu::Kernel& { return (*kernels_)[name]; };
-        const std::vector<std::string_view> names = estimatorKernelNames(settings_.work.schedule);
-        makeWaveRenderer(device(), settings_.work.schedule,
-                         {gpuScene, gpuScene.albedoTable().buffer, film, frame, names, kernel})
-            ->renderWave(0, {0, kSize * kSize, 0, settings_.stop.samples, 0, 0, 0, 0, 0});
+        const std::vector<Phase> phases = phasesOf(settings_);
+        makeWaveRenderer(device(), {phases, settings_.work.schedule, gpuScene, gpuScene.albedoTable().buffer,
+                                    film, frame, kernel})
+            ->renderWave(kPathTransport, 0, {0, kSize * kSize, 0, settings_.stop.samples, 0, 0, 0, 0, 0});
         return film.bands().front().sums.downloadAll<uint32_t>();
     }
 

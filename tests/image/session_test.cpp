@@ -84,6 +84,18 @@ TEST(Session, KernelsOfOneImageServeTheNextAndItsBitsAreThoseOfAFreshSession) {
     EXPECT_EQ(second.renderer->film().read().words, words);
 }
 
+TEST(Session, RendersOnADeviceThatIsOpenWithTheSettingsOfTheMoment) {
+    RenderPlan plan = smallPlan(1);
+    plan.device.wanted = "no such device";
+    RenderSession session(plan, testDevice());
+    RenderJob first = rendered(session);
+    EXPECT_EQ(first.device, &testDevice());
+    EXPECT_EQ(first.renderer->film().read().words, filmOf(1));
+    session.finish(std::move(first));
+    session.use(smallPlan(2).settings);
+    EXPECT_EQ(rendered(session).renderer->film().read().words, filmOf(2));
+}
+
 // A library does not end the process: what a slow kernel means is the caller's to say.
 TEST(Session, AKernelThatTakesLongerThanAllowedIsReportedAndWaitedFor) {
     RenderPlan plan = smallPlan(1);

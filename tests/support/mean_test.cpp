@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "compare/statistics.h"
+#include "compare/welch.h"
 
 namespace lavalight::test {
 namespace {
@@ -19,35 +19,34 @@ struct Difference {
     std::string place;
 };
 
-double sumOf(const Image& variance, glm::length_t channel) {
-    double sum = 0.0;
-    for (const glm::vec3& pixel : variance.pixels)
-        sum += pixel[channel];
-    return sum;
+// How many times noisier the image is than the reference, as a whole; at least 1.
+double noiseRatio(const std::vector<TileDifference>& tiles, int channel) {
+    double ofImage = 0.0;
+    double ofReference = 0.0;
+    for (const TileDifference& tile : tiles) {
+        ofImage += tile.imageVariance[channel];
+        ofReference += tile.referenceVariance[channel];
+    }
+    return ofReference > 0.0 ? std::max(1.0, ofImage / ofReference) : 1.0;
 }
 
 // Differences of the tiles that are precise enough, both by the image's own variance and by the reference's,
 // scaled by how much noisier the image is as a whole. The image's variance alone would prefer tiles that
 // missed rare bright samples, which seem precise and are too dark; the reference's alone would not see where
 // an estimator is worse than elsewhere.
-std::vector<Difference> tileDifferences(const Rendering& image, const Rendering& reference, uint32_t side,
-                                        glm::length_t channel) {
-    const Rendering ti = downsample(image, side);
-    const Rendering tr = downsample(reference, side);
-    const double ofReference = sumOf(tr.variance(), channel);
-    const double noisier =
-        ofReference > 0.0 ? std::max(1.0, sumOf(ti.variance(), channel) / ofReference) : 1.0;
+std::vector<Difference> preciseDifferences(const std::vector<TileDifference>& tiles, uint32_t side,
+                                           int channel) {
+    const double noisier = noiseRatio(tiles, channel);
     std::vector<Difference> differences;
-    for (size_t i = 0; i < tr.radiance().pixels.size(); ++i) {
-        const double mean = tr.radiance().pixels[i][channel];
-        const double variance = tr.variance().pixels[i][channel];
-        const double own = ti.variance().pixels[i][channel];
-        if (!(std::sqrt(std::max(noisier * variance, own)) < kPrecision * mean))
+    for (size_t i = 0; i < tiles.size(); ++i) {
+        const double mean = tiles[i].reference[channel];
+        const double expected = noisier * tiles[i].referenceVariance[channel];
+        if (!(std::sqrt(std::max(expected, tiles[i].imageVariance[channel])) < kPrecision * mean))
             continue;
         // What has no noise, as emission seen directly, is rounded all the same: half a unit in the last
         // place each.
-        const double deviation = std::sqrt(variance + own) / mean + 0x1p-23;
-        differences.push_back({ti.radiance().pixels[i][channel] / mean - 1.0, deviation,
+        const double deviation = std::sqrt(tiles[i].variance[channel]) / mean + 0x1p-23;
+        differences.push_back({tiles[i].difference[channel] / mean, deviation,
                                fmt::format("tile {} of {} pixels a side, channel {}", i, side, channel)});
     }
     return differences;
@@ -89,25 +88,28 @@ MeanComparison compareMeans(const Rendering& image, const Rendering& reference) 
     double ofTile = ofAll;
     const auto judge = [&](const Difference& difference) {
         ++comparison.tests;
-        if (const double z = std::abs(difference.value) / difference.deviation; !(z <= comparison.worstZ)) {
+        if (const double z = absoluteZ(difference.value, difference.deviation); z > comparison.worstZ) {
             comparison.worstZ = z;
             comparison.worst = difference.place;
         }
     };
-    for (const uint32_t side : kTileSides)
-        for (glm::length_t channel = 0; channel < 3; ++channel) {
-            const std::vector<Difference> tiles = tileDifferences(image, reference, side, channel);
-            if (tiles.empty())
+    const Estimate ofImage{&image.radiance(), &image.variance()};
+    const Estimate ofReference{&reference.radiance(), &reference.variance()};
+    for (const uint32_t side : kTileSides) {
+        const std::vector<TileDifference> tiles = tileDifferences(ofImage, ofReference, side);
+        for (int channel = 0; channel < 3; ++channel) {
+            const std::vector<Difference> precise = preciseDifferences(tiles, side, channel);
+            if (precise.empty())
                 continue;
-            std::for_each(tiles.begin(), tiles.end(), judge);
-            const Difference all = meanOf(tiles);
+            std::for_each(precise.begin(), precise.end(), judge);
+            const Difference all = meanOf(precise);
             judge(all);
             ofAll = std::min(ofAll, all.deviation);
-            ofTile = std::min(ofTile, medianDeviation(tiles));
-            const double possible = std::ceil(image.radiance().width / double(side)) *
-                                    std::ceil(image.radiance().height / double(side));
-            comparison.share = std::max(comparison.share, static_cast<double>(tiles.size()) / possible);
+            ofTile = std::min(ofTile, medianDeviation(precise));
+            comparison.share = std::max(comparison.share, static_cast<double>(precise.size()) /
+                                                              static_cast<double>(tiles.size()));
         }
+    }
     comparison.limit = twoSidedQuantile(kFalseAlarm / std::max(1u, comparison.tests));
     comparison.visibleInTile = comparison.limit * ofTile;
     comparison.visibleBias = comparison.limit * ofAll;

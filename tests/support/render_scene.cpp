@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include "compare/statistics.h"
+#include "compare/welch.h"
 #include "image/png.h"
 #include "render/renderer.h"
 
@@ -115,7 +117,8 @@ void expectEveryPixel(const RenderResult& result, const glm::dvec3& expected) {
 void expectSameMean(const Rendering& a, const Rendering& b, uint32_t tileSize) {
     const uint32_t whole = std::max(a.radiance().width, a.radiance().height);
     for (const uint32_t size : {tileSize, whole}) {
-        const ZTest test = tileZTest(a.radiance(), a.variance(), b.radiance(), b.variance(), size);
+        const WelchTest test =
+            welchTest({&a.radiance(), &a.variance()}, {&b.radiance(), &b.variance()}, size);
         EXPECT_LT(test.maxAbsZ, kSigmas)
             << "tiles of " << size << ", worst at " << test.worstTile.x << ", " << test.worstTile.y
             << ", channel " << test.worstChannel << "; mean "

@@ -7,7 +7,6 @@
 
 #include <glm/glm.hpp>
 
-#include "compare/statistics.h"
 #include "gpu/device.h"
 #include "image/rendering.h"
 #include "render/estimator_kernels.h"

@@ -4,7 +4,7 @@
 // since appendix B's (1 - F(V.H)) makes a white dielectric reflect more than it receives at grazing angles.
 //
 // Contract
-//   frame      local, z = shading normal on the side of wo, x = direction of larger roughness; unit directions
+//   basis      local, z = shading normal on the side of wo, x = direction of larger roughness; unit directions
 //   wo         towards the previous vertex, wo.z > 0 (else everything is zero)
 //   wi         the other direction; wi.z < 0 lies behind the surface, where only glass and diffuse transmission send light
 //   evalBsdf   f(wo, wi) * |wi.z|, without delta lobes

@@ -1,4 +1,4 @@
-// Clearcoat, a GGX lobe of a clear varnish in a frame of its own: sample, eval, pdf. Smooth coats are a delta in bsdf.glsl.
+// Clearcoat, a GGX lobe of a clear varnish in a basis of its own: sample, eval, pdf. Smooth coats are a delta in bsdf.glsl.
 // Based on: KHR_materials_clearcoat. The layers below are dimmed by the caller.
 #include "lib/bsdf/specular.glsl"
 #include "lib/math/onb.glsl"
@@ -8,7 +8,7 @@ const float kClearcoatF0 = 0.04; // index 1.5
 struct Clearcoat {
     float weight;
     float alpha;
-    vec3 normal; // in the surface's local frame
+    vec3 normal; // in the surface's local basis
 };
 
 float clearcoatFresnel(float cosTheta) {

@@ -1,4 +1,4 @@
-// GGX microfacets with Smith's height-correlated masking and shadowing; local frame, z is the shading normal. alpha.x is the
+// GGX microfacets with Smith's height-correlated masking and shadowing; local basis, z is the shading normal. alpha.x is the
 // roughness along x, alpha.y along y: three multiplications more than one for both.
 // Based on: Walter et al., "Microfacet Models for Refraction", EGSR 2007; Heitz, "Understanding the Masking-Shadowing
 // Function", JCGT 3(2), 2014; Dupuy, Benyoub, "Sampling Visible GGX Normals with Spherical Caps", HPG 2023.

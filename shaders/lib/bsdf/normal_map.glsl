@@ -3,12 +3,12 @@
 // System", 2017, appendix A.3.
 #include "lib/math/onb.glsl"
 
-// A texel's vector in the frame that the basis gives, of unit length. scale: factor of its x and y.
-vec3 mappedNormal(Basis frame, vec3 texel, float scale) {
+// A texel's vector in world space, by the basis that the texel is given in, of unit length. scale: factor of its x and y.
+vec3 mappedNormal(Basis basis, vec3 texel, float scale) {
     const vec3 v = (2.0 * texel - 1.0) * vec3(scale, scale, 1.0);
-    const vec3 n = toWorld(frame, v);
+    const vec3 n = toWorld(basis, v);
     const float length2 = dot(n, n);
-    return length2 > 1e-12 ? n * inversesqrt(length2) : frame.normal;
+    return length2 > 1e-12 ? n * inversesqrt(length2) : basis.normal;
 }
 
 // The mirror direction of a bent normal rises this far above the surface, as a sine: what follows rounds.

@@ -1,6 +1,5 @@
 #include "cli/options/environment_options.h"
 
-#include <array>
 #include <filesystem>
 #include <optional>
 #include <utility>
@@ -10,15 +9,13 @@
 
 #include "base/error.h"
 #include "cli/options/option_values.h"
+#include "image/environment_file.h"
 
 namespace lavalight {
 namespace {
 
 bool isMapName(const std::string& text) {
-    const std::string extension = CLI::detail::to_lower(std::filesystem::path(text).extension().string());
-    constexpr std::array<const char*, 3> kExtensions{".hdr", ".exr", ".pic"};
-    return std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end() ||
-           std::filesystem::exists(text);
+    return hasEnvironmentExtension(text) || std::filesystem::exists(text);
 }
 
 } // namespace

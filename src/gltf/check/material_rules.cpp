@@ -1,55 +1,17 @@
 // Materials and what belongs to them.
 #include "gltf/check/material_rules.h"
 
+#include <fmt/format.h>
+
+#include "gltf/check/extensions.h"
+
 namespace lavalight {
 namespace {
 
 const std::string kMaterial = "materials[]";
-const std::string kExtensions = "materials[].extensions.";
-
-// The properties of a material extension that are numbers or colours, and its textures.
-struct ExtensionRule {
-    const char* name;
-    std::vector<PropertyRule> properties;
-    std::vector<const char*> textures;
-};
 
 PropertyRule number(std::string_view name) {
     return optional(name, Kind::number);
-}
-
-std::vector<ExtensionRule> extensionRules() {
-    return {
-        {"KHR_materials_emissive_strength", {number("emissiveStrength")}, {}},
-        {"KHR_materials_specular",
-         {number("specularFactor"), numbers("specularColorFactor", 3)},
-         {"specularTexture", "specularColorTexture"}},
-        {"KHR_materials_ior", {number("ior")}, {}},
-        {"KHR_materials_transmission", {number("transmissionFactor")}, {"transmissionTexture"}},
-        {"KHR_materials_volume",
-         {number("thicknessFactor"), number("attenuationDistance"), numbers("attenuationColor", 3)},
-         {"thicknessTexture"}},
-        {"KHR_materials_dispersion", {number("dispersion")}, {}},
-        {"KHR_materials_clearcoat",
-         {number("clearcoatFactor"), number("clearcoatRoughnessFactor")},
-         {"clearcoatTexture", "clearcoatRoughnessTexture", "clearcoatNormalTexture"}},
-        {"KHR_materials_sheen",
-         {numbers("sheenColorFactor", 3), number("sheenRoughnessFactor")},
-         {"sheenColorTexture", "sheenRoughnessTexture"}},
-        {"KHR_materials_anisotropy",
-         {number("anisotropyStrength"), number("anisotropyRotation")},
-         {"anisotropyTexture"}},
-        {"KHR_materials_iridescence",
-         {number("iridescenceFactor"), number("iridescenceIor"), number("iridescenceThicknessMinimum"),
-          number("iridescenceThicknessMaximum")},
-         {"iridescenceTexture", "iridescenceThicknessTexture"}},
-        {"KHR_materials_diffuse_transmission",
-         {number("diffuseTransmissionFactor"), numbers("diffuseTransmissionColorFactor", 3)},
-         {"diffuseTransmissionTexture", "diffuseTransmissionColorTexture"}},
-        {"KHR_materials_pbrSpecularGlossiness",
-         {numbers("diffuseFactor", 4), numbers("specularFactor", 3), number("glossinessFactor")},
-         {"diffuseTexture", "specularGlossinessTexture"}},
-    };
 }
 
 void addTexture(std::vector<ObjectRule>& rules, const std::string& path) {
@@ -59,6 +21,21 @@ void addTexture(std::vector<ObjectRule>& rules, const std::string& path) {
     rules.push_back(
         {path + ".extensions.KHR_texture_transform",
          {numbers("offset", 2), number("rotation"), numbers("scale", 2), optional("texCoord", Kind::small)}});
+}
+
+void addExtensionRules(std::vector<ObjectRule>& rules) {
+    for (const Extension& extension : kExtensions) {
+        if (!extension.hasRules())
+            continue;
+        const std::string path = fmt::format("{}.extensions.{}", kMaterial, extension.name);
+        ObjectRule& rule = rules.emplace_back(ObjectRule{path, {}});
+        for (const PropertyRule& property : extension.properties)
+            if (!property.name.empty())
+                rule.properties.push_back(property);
+        for (const std::string_view texture : extension.textures)
+            if (!texture.empty())
+                addTexture(rules, fmt::format("{}.{}", path, texture));
+    }
 }
 
 void addTextureRules(std::vector<ObjectRule>& rules) {
@@ -97,11 +74,7 @@ void addMaterialRules(std::vector<ObjectRule>& rules) {
          {".pbrMetallicRoughness.baseColorTexture", ".pbrMetallicRoughness.metallicRoughnessTexture",
           ".normalTexture", ".occlusionTexture", ".emissiveTexture"})
         addTexture(rules, kMaterial + texture);
-    for (const ExtensionRule& extension : extensionRules()) {
-        rules.push_back({kExtensions + extension.name, extension.properties});
-        for (const char* texture : extension.textures)
-            addTexture(rules, kExtensions + extension.name + "." + texture);
-    }
+    addExtensionRules(rules);
     addTextureRules(rules);
     addVariantRules(rules);
 }

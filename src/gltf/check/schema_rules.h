@@ -28,27 +28,27 @@ constexpr size_t kNoArray = 0;
 constexpr size_t kAnyLength = static_cast<size_t>(-1);
 
 struct PropertyRule {
-    std::string_view name; // "*": every member of the object
-    Kind kind;             // kind of the value, or of each element where `length` asks for an array
+    std::string_view name;    // "*": every member of the object
+    Kind kind = Kind::object; // kind of the value, or of each element where `length` asks for an array
     Need need = Need::optional;
     size_t length = kNoArray;     // elements of the array
     std::string_view target = {}; // the array that an index points into, from the root: "a.b.array"
 };
 
-[[nodiscard]] inline PropertyRule required(std::string_view name, Kind kind) {
+[[nodiscard]] constexpr PropertyRule required(std::string_view name, Kind kind) {
     return {name, kind, Need::required};
 }
-[[nodiscard]] inline PropertyRule optional(std::string_view name, Kind kind) {
+[[nodiscard]] constexpr PropertyRule optional(std::string_view name, Kind kind) {
     return {name, kind};
 }
-[[nodiscard]] inline PropertyRule numbers(std::string_view name, size_t length) {
+[[nodiscard]] constexpr PropertyRule numbers(std::string_view name, size_t length) {
     return {name, Kind::number, Need::optional, length};
 }
-[[nodiscard]] inline PropertyRule index(std::string_view name, std::string_view target,
-                                        Need need = Need::optional) {
+[[nodiscard]] constexpr PropertyRule index(std::string_view name, std::string_view target,
+                                           Need need = Need::optional) {
     return {name, Kind::index, need, kNoArray, target};
 }
-[[nodiscard]] inline PropertyRule indices(std::string_view name, std::string_view target) {
+[[nodiscard]] constexpr PropertyRule indices(std::string_view name, std::string_view target) {
     return {name, Kind::index, Need::optional, kAnyLength, target};
 }
 

@@ -75,14 +75,14 @@ void collectExtensions(const Json& json, const std::string& source, std::set<std
 void sortExtensions(const Json& json, GltfDocument& document) {
     const auto required = namesIn(json, "extensionsRequired");
     for (const std::string& name : required) {
-        if (!isSupportedExtension(name))
+        if (extensionNamed(name) == nullptr)
             throw document.error(fmt::format("it requires the extension {}, which is not supported", name));
     }
     document.extensionsUsed = namesIn(json, "extensionsUsed");
     std::set<std::string> names(document.extensionsUsed.begin(), document.extensionsUsed.end());
     collectExtensions(json, document.source, names);
     std::copy_if(names.begin(), names.end(), std::back_inserter(document.ignoredExtensions),
-                 [](const std::string& name) { return !isSupportedExtension(name); });
+                 [](const std::string& name) { return extensionNamed(name) == nullptr; });
 }
 
 // What the table of rules cannot say: which parts a camera or a light of one type needs.

@@ -5,6 +5,8 @@
 #include <array>
 #include <utility>
 
+#include "gltf/check/extensions.h"
+
 namespace lavalight {
 namespace {
 
@@ -131,13 +133,29 @@ constexpr std::array<std::pair<std::string_view, Reader>, 12> kReaders = {{
     {"KHR_materials_volume", readVolume},
 }};
 
+constexpr Reader readerOf(std::string_view name) {
+    for (const auto& [known, reader] : kReaders)
+        if (known == name)
+            return reader;
+    return nullptr;
+}
+
+static_assert(std::all_of(kReaders.begin(), kReaders.end(),
+                          [](const auto& entry) { return extensionNamed(entry.first) != nullptr; }),
+              "each extension that is read needs a row in kExtensions");
+// The factor of the emissive strength is read with the emission.
+static_assert(std::all_of(kExtensions.begin(), kExtensions.end(),
+                          [](const Extension& extension) {
+                              return !extension.hasRules() || readerOf(extension.name) != nullptr ||
+                                     extension.name == "KHR_materials_emissive_strength";
+                          }),
+              "each extension of materials in kExtensions needs a reader");
+
 } // namespace
 
 void readMaterialExtension(std::string_view name, ExtensionReader& reader) {
-    const auto found = std::find_if(kReaders.begin(), kReaders.end(),
-                                    [&](const auto& entry) { return entry.first == name; });
-    if (found != kReaders.end())
-        found->second(reader);
+    if (const Reader read = readerOf(name))
+        read(reader);
 }
 
 } // namespace lavalight

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "scene/procedural/integer_noise.h"
+#include "scene/procedural/overview_camera.h"
 
 namespace lavalight {
 
@@ -169,17 +170,6 @@ void addBlobs(Scene& scene, uint32_t triangles) {
     }
 }
 
-Camera makeCamera() {
-    Camera camera;
-    camera.name = "overview";
-    camera.position = {0.0f, 5.0f, 13.0f};
-    camera.forward = glm::normalize(glm::vec3(0.0f, -0.35f, -1.0f));
-    camera.up = glm::normalize(glm::cross(camera.right, camera.forward));
-    camera.aspect = 1.0f;
-    camera.framedAspect = 1.0f;
-    return camera;
-}
-
 } // namespace
 
 Scene makeDenseScene(uint32_t triangleCount) {
@@ -196,7 +186,7 @@ Scene makeDenseScene(uint32_t triangleCount) {
     scene.meshes.push_back(makeGround(static_cast<uint32_t>(std::sqrt(0.1 * target))));
     scene.meshes.push_back(makePanel());
     addBlobs(scene, target - static_cast<uint32_t>(scene.triangleCount()));
-    scene.cameras.push_back(makeCamera());
+    scene.cameras.push_back(overviewCamera({0.0f, 5.0f, 13.0f}, 0.35f));
 
     scene.bounds = {scene.meshes[0].positions[0], scene.meshes[0].positions[0]};
     for (const Mesh& mesh : scene.meshes)

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "scene/procedural/integer_noise.h"
+#include "scene/procedural/overview_camera.h"
 
 namespace lavalight {
 namespace {
@@ -60,17 +61,6 @@ Mesh makeLamps(uint32_t count, float side) {
     return mesh;
 }
 
-Camera makeCamera() {
-    Camera camera;
-    camera.name = "overview";
-    camera.position = {0.0f, 6.0f, 15.0f};
-    camera.forward = glm::normalize(glm::vec3(0.0f, -0.4f, -1.0f));
-    camera.up = glm::normalize(glm::cross(camera.right, camera.forward));
-    camera.aspect = 1.0f;
-    camera.framedAspect = 1.0f;
-    return camera;
-}
-
 } // namespace
 
 Scene makeLampsScene(uint32_t lampCount) {
@@ -88,7 +78,7 @@ Scene makeLampsScene(uint32_t lampCount) {
                                .emission = glm::vec3(radiance),
                                .specular = 0.0f});
     scene.meshes = {makeFloorAndBoxes(), makeLamps(lampCount, side)};
-    scene.cameras.push_back(makeCamera());
+    scene.cameras.push_back(overviewCamera({0.0f, 6.0f, 15.0f}, 0.4f));
     const float half = 0.5f * kFloorSize;
     scene.bounds = {{-half, 0.0f, -half}, {half + 1.0f, 4.5f, half + 1.0f}};
     return scene;

@@ -225,7 +225,7 @@ vkNegotiateLoaderLayerInterfaceVersion(VkNegotiateLayerInterface* negotiation) {
 }
 
 // From now on the `call`-th call returns `result`; 0: none does.
-extern "C" VK_LAYER_EXPORT void lavalightFaultSet(long call, int result) {
+extern "C" void lavalightFaultSet(long call, int result) {
     calls = 0;
     deviceIsLost = false;
     lastFailure = "";
@@ -233,6 +233,6 @@ extern "C" VK_LAYER_EXPORT void lavalightFaultSet(long call, int result) {
     fault.call = call;
 }
 // The name of the call that failed since then; empty: none did.
-extern "C" VK_LAYER_EXPORT const char* lavalightFaultMet() {
+extern "C" const char* lavalightFaultMet() {
     return lastFailure;
 }

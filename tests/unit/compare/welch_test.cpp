@@ -2,6 +2,7 @@
 #include "compare/welch.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <random>
 
@@ -113,6 +114,105 @@ TEST(WelchTest, PixelsOfOneSampleAreLeftOutAndNanNeverPasses) {
     const Rendering a = pixel(1.0f, 0.0f, 8);
     EXPECT_EQ(welchTest(estimateOf(pixel(9.0f, 0.0f, 1)), estimateOf(a), 1).p, 1.0);
     EXPECT_EQ(welchTest(estimateOf(pixel(std::nanf(""), 1.0f, 8)), estimateOf(a), 1).p, 0.0);
+}
+
+Rendering wall(uint32_t width, uint32_t height, float radiance, float variance) {
+    Rendering r{Image(width, height), Image(width, height), {}};
+    std::fill(r.radiance().pixels.begin(), r.radiance().pixels.end(), glm::vec3(radiance));
+    std::fill(r.variance().pixels.begin(), r.variance().pixels.end(), glm::vec3(variance));
+    return r;
+}
+
+TEST(WelchTest, ZOfEachTileIsItsDifferenceOverItsDeviation) {
+    Rendering a = wall(5, 2, 1.0f, 0.25f); // tiles of 2 x 2, 2 x 2 and 1 x 2
+    a.radiance().pixels[4].y += 0.5f;
+    a.radiance().pixels[9].y += 1.0f;
+    const WelchTest test = welchTest(estimateOf(a), estimateOf(wall(5, 2, 1.0f, 0.25f)), 2);
+    ASSERT_EQ(test.absZ.size(), 9u);
+    EXPECT_FLOAT_EQ(test.maxAbsZ, 1.5f); // (0.5 + 1) / sqrt(2 * (0.25 + 0.25))
+    EXPECT_EQ(test.worstTile, glm::uvec2(4, 0));
+    EXPECT_EQ(test.worstChannel, 1);
+    EXPECT_DOUBLE_EQ(test.fractionBelow(1.0f), 8.0 / 9.0);
+}
+
+TEST(WelchTest, WithoutVarianceAnyDifferenceIsInfinite) {
+    Rendering a = wall(2, 1, 3.0f, 0.0f);
+    const Rendering b = a;
+    EXPECT_EQ(welchTest(estimateOf(a), estimateOf(b), 1).maxAbsZ, 0.0f);
+    a.radiance().pixels[1].z += 1e-2f;
+    const WelchTest test = welchTest(estimateOf(a), estimateOf(b), 1);
+    EXPECT_EQ(test.maxAbsZ, kInfinity);
+    EXPECT_EQ(test.worstTile, glm::uvec2(1, 0));
+    EXPECT_DOUBLE_EQ(test.fractionBelow(3.3f), 5.0 / 6.0);
+}
+
+TEST(WelchTest, NanIsInfinitelyFarFromAll) {
+    const WelchTest test =
+        welchTest(estimateOf(wall(1, 1, std::nanf(""), 1.0f)), estimateOf(wall(1, 1, 1.0f, 1.0f)), 1);
+    EXPECT_EQ(test.maxAbsZ, kInfinity);
+    EXPECT_EQ(test.fractionBelow(3.3f), 0.0);
+}
+
+TEST(WelchTest, TilesKeepTheVarianceOfEachImage) {
+    const std::vector<TileDifference> tiles =
+        tileDifferences(estimateOf(wall(3, 2, 2.0f, 0.5f)), estimateOf(wall(3, 2, 1.5f, 0.125f)), 2);
+    ASSERT_EQ(tiles.size(), 2u);
+    EXPECT_EQ(tiles[1].first, glm::uvec2(2, 0));
+    EXPECT_EQ(tiles[1].difference, glm::dvec3(1.0));
+    EXPECT_EQ(tiles[1].reference, glm::dvec3(3.0));
+    EXPECT_EQ(tiles[1].imageVariance, glm::dvec3(1.0));
+    EXPECT_EQ(tiles[1].referenceVariance, glm::dvec3(0.25));
+    EXPECT_EQ(tiles[1].variance, glm::dvec3(1.25));
+}
+
+// What a render of a grey wall leaves: each pixel is the mean of `samples` exponential variates (sigma =
+// mean, as of a light that is found by chance), with the variance estimated from the same samples.
+Rendering noisyRendering(float mean, unsigned seed) {
+    constexpr uint32_t kSide = 128;
+    constexpr int kSamples = 64;
+    std::mt19937 generator(seed);
+    std::exponential_distribution<double> sample(1.0 / mean);
+    Rendering rendering{Image(kSide, kSide), Image(kSide, kSide),
+                        std::vector<uint32_t>(kSide * kSide, kSamples)};
+    for (size_t i = 0; i < rendering.radiance().pixels.size(); ++i)
+        for (int c = 0; c < 3; ++c) {
+            double sum = 0.0;
+            double sumOfSquares = 0.0;
+            for (int s = 0; s < kSamples; ++s) {
+                const double value = sample(generator);
+                sum += value;
+                sumOfSquares += value * value;
+            }
+            const double variance = (sumOfSquares - sum * sum / kSamples) / (kSamples - 1);
+            rendering.radiance().pixels[i][c] = static_cast<float>(sum / kSamples);
+            rendering.variance().pixels[i][c] = static_cast<float>(variance / kSamples);
+        }
+    return rendering;
+}
+
+WelchTest zTest(const Rendering& a, const Rendering& b, uint32_t tileSize) {
+    return welchTest(estimateOf(a), estimateOf(b), tileSize);
+}
+
+TEST(WelchTest, TwoRendersOfTheSameWallDifferAsANormalDeviateDoes) {
+    const Rendering a = noisyRendering(0.5f, 1);
+    const Rendering b = noisyRendering(0.5f, 2);
+    // 49152 tests each; the standard deviation of such a fraction is at most 0.0023.
+    const WelchTest pixels = zTest(a, b, 1);
+    EXPECT_NEAR(pixels.fractionBelow(1.0f), 0.6827, 0.01);
+    EXPECT_NEAR(pixels.fractionBelow(2.0f), 0.9545, 0.005);
+    EXPECT_NEAR(pixels.fractionBelow(3.3f), 0.99903, 0.001);
+    EXPECT_GT(zTest(a, b, 16).fractionBelow(3.3f), 0.98); // 192 tests: at most three outside
+    EXPECT_LT(zTest(a, b, 128).maxAbsZ, 3.3f);
+}
+
+TEST(WelchTest, OnePerCentOfBiasIsCaughtThoughNoPixelShowsIt) {
+    const Rendering a = noisyRendering(0.5f, 1);
+    const Rendering b = noisyRendering(0.505f, 2);
+    EXPECT_NEAR(zTest(a, b, 1).fractionBelow(3.3f), 0.999, 0.001);
+    // Each channel has 128^2 * 64 samples: the bias is 0.01 / sqrt(2 / 1.05e6) = 7.2 standard deviations.
+    const WelchTest whole = zTest(a, b, 128);
+    EXPECT_EQ(whole.fractionBelow(3.3f), 0.0);
 }
 
 TEST(WelchTest, SizesMustAgree) {

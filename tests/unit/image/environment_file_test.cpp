@@ -36,6 +36,13 @@ float largestRelativeDifference(const Image& a, const Image& b) {
     return largest;
 }
 
+TEST(EnvironmentFile, IsKnownByItsExtensionInEitherCase) {
+    for (const char* name : {"sky.hdr", "sky.HDR", "a/b.c/sky.Exr", "sky.pic"})
+        EXPECT_TRUE(hasEnvironmentExtension(name)) << name;
+    for (const char* name : {"sky.gltf", "hdr", ".hdr", "sky.hdr2", "sky.hd", "exr/sky", ""})
+        EXPECT_FALSE(hasEnvironmentExtension(name)) << name;
+}
+
 TEST_F(EnvironmentAssets, EveryCompressionOfOpenExrHoldsTheMapThatTheHdrHolds) {
     const Image hdr = read("venice_sunset_256.hdr");
     for (const char* name : {"none_float", "rle_half", "zips_half", "zip_half", "zip_float", "piz_half",

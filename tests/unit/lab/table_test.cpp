@@ -1,5 +1,6 @@
 // Tests of the lab's tables: ratios, and the three ways to write them.
 #include <array>
+#include <cmath>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -15,6 +16,18 @@ Table twoRows() {
     Table table = estimatorTable("pair", "A pair", {naive, dear}, {{"rolls", "rolls"}});
     table.notes = {"A note."};
     return table;
+}
+
+TEST(EstimatorRow, HoldsTheMomentsAndTheTheory) {
+    const EstimatorRow row = estimatorRow("dice", {3.5, 12.0, 5}, {3.25, 2.5}, 2.0);
+    EXPECT_EQ(row.estimator, "dice");
+    EXPECT_EQ(row.samples, 5u);
+    EXPECT_EQ(row.estimate, 3.5);
+    EXPECT_EQ(row.exact, 3.25);
+    EXPECT_EQ(row.variance, 3.0); // 12 / (5 - 1)
+    EXPECT_DOUBLE_EQ(row.standardError, std::sqrt(3.0 / 5.0));
+    EXPECT_EQ(row.theory, 2.5);
+    EXPECT_EQ(row.cost, 2.0);
 }
 
 TEST(LabTable, TheRatioIsVarianceTimesCostOverThatOfTheFirstRow) {

@@ -120,6 +120,7 @@ TEST(Report, IsJsonWithWhatTheRenderWasAndCost) {
     EXPECT_EQ(json.at("device").at("name"), "device");
     EXPECT_EQ(json.at("device").at("driver"), "driver 1.2");
     EXPECT_EQ(json.at("settings").at("spp"), "6");
+    EXPECT_EQ(json.at("phases"), Json::array({{{"transport", "path"}, {"firstSample", 0}, {"samples", 6}}}));
     EXPECT_EQ(json.at("complete"), true);
     EXPECT_EQ(json.at("seconds").at("load"), 0.5);
     EXPECT_EQ(json.at("kernels").at("shade").at("seconds"), 1.25);

@@ -197,6 +197,24 @@ TEST_F(LiveRenderTest, SavesTheImageAndSaysSo) {
     EXPECT_TRUE(std::filesystem::exists(folder / "a.png"));
 }
 
+TEST_F(LiveRenderTest, ASavedImageNamesTheShadersThatWereChanged) {
+    const TemporaryFolder folder;
+    std::filesystem::create_directories(folder / "lib/sampling");
+    std::ofstream(folder / "lib/sampling/roulette.glsl")
+        << *embeddedShader("lib/sampling/roulette.glsl") << "// another line\n";
+    LiveRequest request = requestFor("cornell-box");
+    request.shaders = std::make_shared<ShaderOverlay>(folder.path());
+    render_.show(request);
+    (void)waitForImage();
+    render_.save((folder / "a.exr").string(), "");
+    (void)waitFor([](const LiveNews& n) { return !n.messages.empty(); });
+    std::string ledger;
+    for (const auto& [key, value] : readExr(folder / "a.exr").metadata)
+        if (key == "bias-ledger")
+            ledger = value;
+    EXPECT_NE(ledger.find("lib/sampling/roulette.glsl"), std::string::npos) << ledger;
+}
+
 TEST_F(LiveRenderTest, WhatCannotBeRenderedIsToldAndTheImageBeforeGoesOn) {
     const LiveRequest before = requestFor("cornell-box");
     render_.show(before);

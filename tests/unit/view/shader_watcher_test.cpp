@@ -21,8 +21,9 @@ class ShaderWatcherTest : public testing::Test {
     ShaderWatcherTest() {
         std::filesystem::create_directories(folder_ / "lib/sampling");
         save(ours_);
-        watcher_ = std::make_unique<ShaderWatcher>(
-            folder_.path().string(), std::make_shared<ShaderOverlay>(folder_.path()), Schedule::fused, [] {});
+        watcher_ = std::make_unique<ShaderWatcher>(folder_.path().string(),
+                                                   std::make_shared<ShaderOverlay>(folder_.path()),
+                                                   ShaderWatcher::KernelNames{"path", "accumulate"}, [] {});
     }
     void save(const std::string& text) const {
         std::ofstream(folder_ / "lib/sampling/roulette.glsl") << text;
@@ -70,7 +71,7 @@ TEST_F(ShaderWatcherTest, TellsWhatDoesNotCompileAndGoesOnFromTheLastThatDid) {
 }
 
 TEST_F(ShaderWatcherTest, ComparesTheKernelsInUse) {
-    watcher_->use(Schedule::wavefront);
+    watcher_->use({"extend", "shade"});
     save(capped("0.5"));
     EXPECT_EQ(next().kernels, std::vector<std::string>{"shade"});
 }
@@ -89,7 +90,7 @@ TEST_F(ShaderWatcherTest, JoinsChangesThatNobodyTookYet) {
 
 TEST(ShaderWatcher, NeedsItsFolder) {
     const test::TemporaryFolder folder;
-    EXPECT_THROW(ShaderWatcher((folder / "none").string(), nullptr, Schedule::fused, [] {}), Error);
+    EXPECT_THROW(ShaderWatcher((folder / "none").string(), nullptr, {}, [] {}), Error);
 }
 
 } // namespace

@@ -1,4 +1,4 @@
-// Tangents of triangles: the frames that normal maps and anisotropy are given in.
+// Tangents of triangles: the bases that normal maps and anisotropy are given in.
 #include "lib/math/octahedral.glsl"
 #include "lib/math/onb.glsl"
 #include "shared/bindings.h"
@@ -17,8 +17,8 @@ float bitangentSign(uint flags, uint corner) {
 }
 
 // At barycentrics b, around the normal n that the mesh gives to its front: tangent and bitangent as interpolated, not
-// made perpendicular, which is how normal maps are baked. A mesh without tangents gets some frame.
-Basis tangentFrame(SurfaceId surface, vec3 b, vec3 n) {
+// made perpendicular, which is how normal maps are baked. A mesh without tangents gets some basis.
+Basis tangentBasis(SurfaceId surface, vec3 b, vec3 n) {
     const TriangleTangents t = fetchTriangleTangents(attributeIndex(surface));
     const vec3 tangent =
         b.x * decodeOctahedral(t.t0) + b.y * decodeOctahedral(t.t1) + b.z * decodeOctahedral(t.t2);
