@@ -14,7 +14,13 @@ void moveOnLens(FrameParameters parameters, vec2 lens, inout vec3 origin, vec3 t
     direction = normalize(parameters.focusDistance * throughMiddle - onLens);
 }
 
-// `position` in pixels from the top left corner of the image; `lens`: random, for a point on the lens.
+// Where a camera ray ends: on the far plane, if there is one (glTF 2.0, 3.10.3).
+float cameraRayEnd(FrameParameters parameters, vec3 direction) {
+    return parameters.clipDepth > 0.0 ? parameters.clipDepth / dot(direction, parameters.cameraForward) : kInfinity;
+}
+
+// The ray starts on the near plane. `position` in pixels from the top left corner of the image; `lens`: random, for a point
+// on the lens.
 Ray cameraRay(FrameParameters parameters, vec2 position, vec2 lens) {
     const vec2 uv = position / vec2(parameters.imageWidth, parameters.imageHeight);
     const vec2 ndc = 2.0 * uv - 1.0;
@@ -29,5 +35,7 @@ Ray cameraRay(FrameParameters parameters, vec2 position, vec2 lens) {
         direction = equirectangularToDirection(uv);
     if (sceneHas(kFeatureLens))
         moveOnLens(parameters, lens, origin, parameters.cameraForward + onPlane, direction);
+    if (parameters.clipNear > 0.0)
+        origin += direction * (parameters.clipNear / dot(direction, parameters.cameraForward));
     return Ray(origin, kNoSurface, direction, 0.0, 0u, InteriorList(0u, 0u, 0u));
 }

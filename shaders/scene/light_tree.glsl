@@ -1,5 +1,6 @@
 // Picks a light by descending into one of two children at a time, each as likely as what it may bring to the receiver.
 // Based on: Conty Estevez, Kulla, "Importance Sampling of Many Lights with Adaptive Tree Splitting", 2018, section 5.
+#include "lib/features.glsl"
 #include "lib/sampling/light_importance.glsl"
 #include "scene/receiver.glsl"
 #include "shared/bindings.h"
@@ -7,9 +8,14 @@
 layout(set = 0, binding = BINDING_LIGHT_TREE) uniform utextureBuffer lightTree; // kLightTreeTexels a node
 
 LightTreeRecord fetchLightTreeNode(uint index) {
-    const uvec4 a = texelFetch(lightTree, int(kLightTreeTexels * index));
-    const uvec4 b = texelFetch(lightTree, int(kLightTreeTexels * index + 1u));
-    return LightTreeRecord(uintBitsToFloat(a.xyz), uintBitsToFloat(a.w), b.x, b.y, uintBitsToFloat(b.z), b.w);
+    const int first = int(kLightTreeTexels * index);
+    const uvec4 a = texelFetch(lightTree, first);
+    const uvec4 b = texelFetch(lightTree, first + 1);
+    float inverseRange2 = 0.0;
+    if (sceneHas(kFeatureLightRange))
+        inverseRange2 = uintBitsToFloat(texelFetch(lightTree, first + 2).x);
+    return LightTreeRecord(uintBitsToFloat(a.xyz), uintBitsToFloat(a.w), b.x, b.y, uintBitsToFloat(b.z), b.w,
+                           inverseRange2, float[3](0.0, 0.0, 0.0));
 }
 
 // Two neighbours in the tree, and the probability of the first.

@@ -19,8 +19,9 @@ Ray cameraRayOf(uint slot) {
 Hit trace(Ray ray, uint slot, uint bounce) {
     const RayFilter ignored = RayFilter(bounce == 0u, ray.fromSurface, kNoSurface,
                                         alphaSeed(keyOfSlot(slot, bounce), kDimensionAlpha));
+    const float end = bounce == 0u ? cameraRayEnd(frame, ray.direction) : kInfinity;
     Hit hit;
-    if (!intersectClosest(ray.origin, ray.direction, kInfinity, ignored, hit))
+    if (!intersectClosest(ray.origin, ray.direction, end, ignored, hit))
         hit.t = kInfinity;
     return hit;
 }

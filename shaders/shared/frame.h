@@ -32,9 +32,9 @@ struct FrameParameters {
     float environmentRotation; // turns (lib/math/equirectangular.glsl says which way u grows)
     float lensRadius;          // metres; 0: pinhole
     float focusDistance;       // metres along cameraForward to the plane that is sharp
+    float clipNear;  // metres along cameraForward; what is nearer is not seen by camera rays
+    float clipDepth; // metres from there to where they end; 0: nowhere
     uint unused0;
-    uint unused1;
-    uint unused2;
 };
 
 // Specialisation constants: the estimator settings that pick code (lib/estimator.glsl).

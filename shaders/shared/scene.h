@@ -96,7 +96,7 @@ SHARED_CONST uint kLightPunctual = 1u;
 SHARED_CONST uint kLightEnvironment = 2u;
 SHARED_CONST uint kLightTree = 3u; // no light itself
 
-// Two texels a node of the light tree: what its lights may send where. Children are neighbours; the root is node 0.
+// Three texels a node of the light tree: what its lights may send where. Children are neighbours; the root is node 0.
 struct LightTreeRecord {
     vec3 center; // centre of a sphere around all lights
     float radius;
@@ -104,13 +104,15 @@ struct LightTreeRecord {
     uint cosines;    // cosine of the cone's half angle, and of the angle around each normal within which light leaves: snorm 2x16
     float intensity; // W/sr along the normals, of all lights together
     uint reference;  // flags, and the light, or the first child
+    float inverseRange2; // 1 / range^2 of the light that reaches furthest; 0: without end
+    float unused[3];
 };
-SHARED_CONST uint kLightTreeTexels = 2u;
+SHARED_CONST uint kLightTreeTexels = 3u;
 SHARED_CONST uint kLightTreeLeafBit = 0x80000000u;
 SHARED_CONST uint kLightTreeTwoSidedBit = 0x40000000u; // light leaves against the normals too
 SHARED_CONST uint kLightTreeIndexMask = 0x3fffffffu;
 
-// Three texels a light of KHR_lights_punctual.
+// Four texels a light of KHR_lights_punctual.
 struct PunctualRecord {
     vec3 position;
     uint kind;      // kPunctual...
@@ -118,7 +120,10 @@ struct PunctualRecord {
     float coneScale;  // spot: (cos(angle) * scale + offset)^2, clamped to [0, 1]
     vec3 intensity; // W/sr; directional: W/m^2
     float coneOffset;
+    float inverseRange2; // 1 / range^2; 0: without end
+    float unused[3];
 };
+SHARED_CONST uint kPunctualTexels = 4u;
 SHARED_CONST uint kPunctualPoint = 0u;
 SHARED_CONST uint kPunctualSpot = 1u;
 SHARED_CONST uint kPunctualDirectional = 2u;

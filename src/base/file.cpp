@@ -5,7 +5,6 @@
 #include <cstring>
 #include <fstream>
 #include <system_error>
-#include <vector>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -159,7 +158,7 @@ void writeFileAtomically(const fs::path& path, std::string_view bytes) {
     });
 }
 
-void removeUnfinished(const fs::path& path) {
+std::vector<fs::path> unfinishedFiles(const fs::path& path) {
     const fs::path folder = path.parent_path();
     const std::string prefix = path.filename().string() + ".";
     std::vector<fs::path> unfinished;
@@ -170,7 +169,12 @@ void removeUnfinished(const fs::path& path) {
             name.size() > prefix.size() + kUnfinished.size())
             unfinished.push_back(entry.path());
     }
-    for (const fs::path& file : unfinished)
+    return unfinished;
+}
+
+void removeUnfinished(const fs::path& path) {
+    std::error_code ignored;
+    for (const fs::path& file : unfinishedFiles(path))
         fs::remove(file, ignored);
 }
 

@@ -5,6 +5,7 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace lavalight {
 
@@ -25,8 +26,10 @@ void writeFileAtomically(const std::filesystem::path& path,
 // Writes `bytes` to `path`, as atomically.
 void writeFileAtomically(const std::filesystem::path& path, std::string_view bytes);
 
-// Removes what processes that were killed left behind where they wrote `path`. No other process may be
-// writing it.
+// What processes left behind that were killed where they wrote `path`, or what they are writing still.
+[[nodiscard]] std::vector<std::filesystem::path> unfinishedFiles(const std::filesystem::path& path);
+
+// Removes these. No other process may be writing `path`.
 void removeUnfinished(const std::filesystem::path& path);
 
 // Throws Error unless a file can be created at `path`: asked before a long render rather than after it.

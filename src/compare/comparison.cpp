@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <utility>
 
 #include <fmt/format.h>
@@ -19,17 +20,32 @@ bool isPicture(std::string_view bytes) {
     return bytes.starts_with(kPng);
 }
 
-Image linearImage(const Picture& picture) {
-    Image image(picture.width, picture.height);
-    for (uint32_t y = 0; y < picture.height; ++y)
-        for (uint32_t x = 0; x < picture.width; ++x)
-            image.pixels[size_t{y} * picture.width + x] = glm::vec3(texelOf(picture, x, y, true));
-    return image;
+Layer alphaLayer(Image mean) {
+    return {kAlphaLayer, {kAlphaLayer}, std::move(mean), std::nullopt};
 }
 
-Image readPicture(const std::string& path, std::string_view bytes) {
+// Linear colours, and alpha unless all is opaque.
+std::vector<Layer> linearLayers(const Picture& picture) {
+    Image color(picture.width, picture.height);
+    Image alpha(picture.width, picture.height);
+    bool isOpaque = true;
+    for (uint32_t y = 0; y < picture.height; ++y)
+        for (uint32_t x = 0; x < picture.width; ++x) {
+            const size_t index = size_t{y} * picture.width + x;
+            const glm::dvec4 texel = texelOf(picture, x, y, true);
+            color.pixels[index] = glm::vec3(texel);
+            alpha.pixels[index].x = static_cast<float>(texel.w);
+            isOpaque = isOpaque && texel.w == 1.0;
+        }
+    std::vector<Layer> layers{colorLayer(std::move(color), std::nullopt)};
+    if (!isOpaque)
+        layers.push_back(alphaLayer(std::move(alpha)));
+    return layers;
+}
+
+std::vector<Layer> readPicture(const std::string& path, std::string_view bytes) {
     try {
-        return linearImage(decodePicture(bytes));
+        return linearLayers(decodePicture(bytes));
     } catch (const Error& error) {
         throw Error(fmt::format("cannot read {}: {}", path, error.what()));
     }
@@ -136,8 +152,48 @@ std::vector<Verdict> judge(const Comparison& c, const Criteria& criteria, const 
 // Components that the layer lacks are 0 in both, and add nothing to sums over three channels.
 LayerComparison compareLayers(const Estimate& image, const Estimate& reference, const Layer& layer) {
     const double share = 3.0 / static_cast<double>(layer.channels.size());
-    return {layer.name, layer.channels, rmse(*image.mean, *reference.mean) * std::sqrt(share),
-            relMse(*image.mean, *reference.mean) * share, testNoise(image, reference)};
+    return {layer.name,
+            layer.channels,
+            rmse(*image.mean, *reference.mean) * std::sqrt(share),
+            relMse(*image.mean, *reference.mean) * share,
+            pixelText(worstOfRelMse(*image.mean, *reference.mean), image.mean->width),
+            testNoise(image, reference)};
+}
+
+struct LayerPair {
+    const Layer* image;
+    const Layer* reference;
+};
+
+// Whether `layer` is the opacity of something that is in `other`, where nothing is said of that.
+bool lacksAlphaOf(const Rendering& other, const Layer& layer) {
+    if (other.find(layer.name) != nullptr)
+        return false;
+    return layer.name == kAlphaLayer ||
+           (layer.name.ends_with(".A") && other.find(layer.name.substr(0, layer.name.size() - 2)) != nullptr);
+}
+
+Layer opaqueAs(const Layer& alpha) {
+    Layer opaque{alpha.name, alpha.channels, Image(alpha.mean.width, alpha.mean.height), std::nullopt};
+    for (glm::vec3& pixel : opaque.mean.pixels)
+        pixel.x = 1.0f;
+    return opaque;
+}
+
+// The layers that both have besides the colour, and alpha where either has it, beside one of `opaques`.
+std::vector<LayerPair> pairsOf(const Rendering& image, const Rendering& reference,
+                               std::deque<Layer>& opaques) {
+    std::vector<LayerPair> pairs;
+    for (const Layer& layer : image.layers)
+        if (const Layer* other = reference.find(layer.name); other != nullptr && layer.name != kColorLayer)
+            pairs.push_back({&layer, other});
+    for (const Layer& alpha : image.layers)
+        if (lacksAlphaOf(reference, alpha))
+            pairs.push_back({&alpha, &opaques.emplace_back(opaqueAs(alpha))});
+    for (const Layer& alpha : reference.layers)
+        if (lacksAlphaOf(image, alpha))
+            pairs.push_back({&opaques.emplace_back(opaqueAs(alpha)), &alpha});
+    return pairs;
 }
 
 void judgeLayer(const LayerComparison& layer, const Criteria& criteria, std::vector<Verdict>& verdicts) {
@@ -149,7 +205,8 @@ void judgeLayer(const LayerComparison& layer, const Criteria& criteria, std::vec
     if (criteria.relMse || !isTested) {
         const double limit = criteria.relMse.value_or(kDefaultRelMse);
         const std::string criterion = fmt::format("relMSE of {}", layer.name);
-        verdicts.push_back({criterion, layer.relMse, limit, layer.relMse <= limit, ""}); // NaN is not
+        verdicts.push_back(
+            {criterion, layer.relMse, limit, layer.relMse <= limit, layer.where}); // NaN is not
     }
 }
 
@@ -160,7 +217,7 @@ ComparedImage readCompared(const std::string& path) {
     if (!isPicture(bytes))
         return {path, readExr(path), false};
     ComparedImage image{path, {}, true};
-    image.content.layers.push_back(colorLayer(readPicture(path, bytes), std::nullopt));
+    image.content.layers = readPicture(path, bytes);
     return image;
 }
 
@@ -196,12 +253,11 @@ Comparison compare(const ComparedImage& image, const ComparedImage& reference, c
                               estimateOf(reference.content.layers.front(), reference.content.sampleCounts));
     const Criteria asked = completed(criteria, image, reference);
     result.verdicts = judge(result, asked, a, b);
-    for (const Layer& layer : image.content.layers) {
-        const Layer* same = reference.content.find(layer.name);
-        if (layer.name == kColorLayer || same == nullptr)
-            continue;
-        result.layers.push_back(compareLayers(estimateOf(layer, image.content.sampleCounts),
-                                              estimateOf(*same, reference.content.sampleCounts), layer));
+    std::deque<Layer> opaques;
+    for (const LayerPair& pair : pairsOf(image.content, reference.content, opaques)) {
+        result.layers.push_back(compareLayers(estimateOf(*pair.image, image.content.sampleCounts),
+                                              estimateOf(*pair.reference, reference.content.sampleCounts),
+                                              *pair.image));
         judgeLayer(result.layers.back(), asked, result.verdicts);
     }
     return result;

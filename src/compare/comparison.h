@@ -35,6 +35,10 @@ struct Criteria {
     std::optional<double> significance; // how often the Z-test may take equal renders for different ones
 };
 
+// The layer of opacity; that of another layer bears its name and ".A". An image without one is opaque, beside
+// an image that has it.
+inline constexpr const char* kAlphaLayer = "A";
+
 inline constexpr const char* kChannelNames = "RGB";
 // Two unrelated images are around 1; two noisy renders of one scene below 0.1.
 inline constexpr double kDefaultRelMse = 0.01;
@@ -73,12 +77,13 @@ struct ZTests {
     [[nodiscard]] const ZTestLevel& worst() const; // the level that it is of
 };
 
-// A layer that both have besides the colour.
+// A layer that both have besides the colour, or alpha that one has.
 struct LayerComparison {
     std::string name;
     std::vector<std::string> channels;
     double rmse = 0.0;
     double relMse = 0.0;
+    std::string where;            // the pixel that contributes most to relMse
     std::optional<ZTests> zTests; // absent if neither has variances of it
 };
 

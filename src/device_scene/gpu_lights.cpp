@@ -24,6 +24,12 @@ std::vector<uint32_t> lightSources(const Lights& lights) {
     return sources;
 }
 
+// 0 for a light without end; finite, so that its product with a distance of 0 is 0.
+float inverseSquare(double range) {
+    constexpr double kLargest = std::numeric_limits<float>::max();
+    return static_cast<float>(std::min(1.0 / (range * range), kLargest));
+}
+
 // Cone scale and offset as KHR_lights_punctual defines them, with its guard against equal angles.
 PunctualRecord packPunctual(const PunctualLight& light) {
     const float inner = std::cos(light.innerConeAngle);
@@ -32,7 +38,14 @@ PunctualRecord packPunctual(const PunctualLight& light) {
     const uint32_t kind = light.kind == PunctualKind::point  ? kPunctualPoint
                           : light.kind == PunctualKind::spot ? kPunctualSpot
                                                              : kPunctualDirectional;
-    return {light.position, kind, light.direction, scale, light.intensity, -outer * scale};
+    return {light.position,
+            kind,
+            light.direction,
+            scale,
+            light.intensity,
+            -outer * scale,
+            inverseSquare(light.range),
+            {}};
 }
 
 // Radians that an axis in octahedral encoding may be off by.
@@ -59,7 +72,9 @@ LightTreeRecord packLightTreeNode(const LightTreeNode& node, double intensitySca
             packCosine(spread) | packCosine(cone.falloff) << 16u,
             static_cast<float>(bounds.intensity * intensityScale),
             node.index | (node.isLeaf ? kLightTreeLeafBit : 0u) |
-                (bounds.isTwoSided ? kLightTreeTwoSidedBit : 0u)};
+                (bounds.isTwoSided ? kLightTreeTwoSidedBit : 0u),
+            inverseSquare(bounds.range),
+            {}};
 }
 
 } // namespace

@@ -91,6 +91,13 @@ SceneFeatures featuresOf(const Mesh& mesh) {
            (mesh.colors.empty() ? 0u : kFeatureVertexColors);
 }
 
+SceneFeatures featuresOfPunctuals(const Scene& scene, const Lights& lights) {
+    const auto& ids = lights.punctuals;
+    const bool hasRange = std::any_of(ids.begin(), ids.end(),
+                                      [&](uint32_t id) { return scene.punctualLights[id].range < kNoRange; });
+    return (ids.empty() ? 0u : kFeaturePunctualLights) | (hasRange ? kFeatureLightRange : 0u);
+}
+
 } // namespace
 
 bool boundsSolid(const Material& material) {
@@ -127,7 +134,7 @@ SceneFeatures sceneFeatures(const Scene& scene, const Lights& lights) {
     features |= scene.triangleCount() >= kManyTriangles ? kFeatureManyTriangles : 0u;
     features |= solidsMayOverlap(scene) ? kFeatureSolids : 0u;
     features |= lights.emitters.list.empty() ? 0u : kFeatureTriangleLights;
-    features |= lights.punctuals.empty() ? 0u : kFeaturePunctualLights;
+    features |= featuresOfPunctuals(scene, lights);
     if (lights.environmentRadiance != glm::vec3(0.0f))
         features |= lights.environmentMap ? kFeatureEnvironmentMap : kFeatureEnvironment;
     features |= lights.tree.nodes.empty() ? 0u : kFeatureLightTree;

@@ -20,9 +20,9 @@ constexpr std::string_view kNoValue = "none";
 constexpr std::array<std::string_view, 5> kFreeOptions{"spp", "first-sample", "time", "target-error",
                                                        "wave-size"};
 // Options that say where something comes from: its content is what counts.
-constexpr std::array<std::string_view, 12> kSources{"env",     "look-from", "look-at",   "up",
-                                                    "fov",     "aperture",  "focus",     "panorama",
-                                                    "shaders", "at",        "animation", "variant"};
+constexpr std::array<std::string_view, 14> kSources{"env",      "look-from", "look-at",  "up",      "fov",
+                                                    "aperture", "focus",     "panorama", "no-clip", "shaders",
+                                                    "at",       "animation", "scene",    "variant"};
 
 template <size_t N>
 bool isOneOf(const std::array<std::string_view, N>& names, std::string_view name) {

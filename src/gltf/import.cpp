@@ -73,6 +73,8 @@ Scene buildScene(const GltfDocument& document, const ImportOptions& options) {
     scene.extensionsUsed = document.extensionsUsed;
     scene.ignoredExtensions = document.ignoredExtensions;
 
+    scene.scenes = document.scenes;
+    scene.shownScene = document.scene;
     scene.variants = document.variants;
     scene.animations = listAnimations(document);
     const NodeTree nodes = placeNodes(document, poseAt(document, options));
@@ -100,6 +102,7 @@ Scene buildScene(const GltfDocument& document, const ImportOptions& options) {
 Scene import(const GltfSource& source, std::string_view bytes, const ImportOptions& options) {
     try {
         GltfDocument document = parseGltf(bytes, source);
+        chooseScene(document, options.scene);
         document.variant = findVariant(document.variants, options.variant, document.source);
         return buildScene(document, options);
     } catch (const std::bad_alloc&) {

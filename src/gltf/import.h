@@ -4,13 +4,14 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "gltf/import_options.h"
 #include "scene/scene.h"
 
 namespace lavalight {
 
-// The default scene of a .gltf or .glb file, told apart by content. What the importer does not understand is
+// A scene of a .gltf or .glb file, told apart by content. What the importer does not understand is
 // named in Scene::warnings; a scene without any light gets a constant white environment, one without a camera
 // gets one that frames it. Throws Error, in one line with the file's name, for what cannot be read: a missing
 // or damaged file, data out of range, a buffer outside the file's folder unless that is allowed, a required
@@ -20,5 +21,9 @@ namespace lavalight {
 // Imports a file that is in memory; it cannot refer to other files. `name` stands for the file in messages.
 [[nodiscard]] Scene importGltf(const std::string& name, std::string_view bytes,
                                const ImportOptions& options = {});
+
+// The files that the URIs of a file may mean, whether used, readable or there at all; none of them is read.
+// None for what is no glTF file, which importGltf tells.
+[[nodiscard]] std::vector<std::filesystem::path> referencedFiles(const std::filesystem::path& gltf);
 
 } // namespace lavalight

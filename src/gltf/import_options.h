@@ -9,6 +9,7 @@ namespace lavalight {
 struct ImportOptions {
     std::optional<double> seconds{}; // the animations' time; none: nodes stay where the file places them
     std::string animation{};         // animation by name or index; empty: the first
+    std::string scene{};             // scene by name or index; empty: the file's default
     std::string variant{};           // variant of the materials, by name or index; empty: none
     bool allowsExternal = false;     // the file may refer to files outside its folder
     bool bringsLight = false;        // the caller lights the scene: no white environment stands in

@@ -44,9 +44,10 @@ struct ExrFile : Rendering {
 
 // Reads the first part of any scan-line or tiled file with R, G and B, or with luminance Y alone, in half,
 // float or unsigned. Further layers are one to three float or half channels that share a name up to its last
-// dot, as R, G, B or in alphabetical order, or one channel without a dot; other channels are ignored. Colours
-// are taken as linear Rec. 709; a file that says otherwise gets a warning. Throws Error for whatever is no
-// such file: missing, damaged, incomplete, larger than kMaxImageSide a side or than memory, without colour.
+// dot, as R, G, B or in alphabetical order, beside its A as a layer of that name, or one channel without a
+// dot; other channels are ignored. Colours are taken as linear Rec. 709; a file that says otherwise gets a
+// warning. Throws Error for whatever is no such file: missing, damaged, incomplete, larger than kMaxImageSide
+// a side or than memory, without colour.
 [[nodiscard]] ExrFile readExr(const std::filesystem::path& path);
 
 // Reads the radiance alone. Throws Error for more than `mostPixels` as well.

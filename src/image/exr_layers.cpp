@@ -51,10 +51,27 @@ Names inOrder(const std::string& layer, const Names& channels) {
                                                                                              : channels;
 }
 
+bool isAlpha(std::string_view channel) {
+    return channel == "A" || channel.ends_with(".A");
+}
+
 bool mayBeLayer(const ExrChannel& channel) {
     const bool isColor =
         channel.name == "R" || channel.name == "G" || channel.name == "B" || channel.name == kLuminance;
-    return !isColor && channel.isFloat && channel.hasAllPixels && !channel.name.starts_with(kVariance);
+    const bool isNumber = channel.isFloat || isAlpha(channel.name); // whole numbers are 0 or 1
+    return !isColor && isNumber && channel.hasAllPixels && !channel.name.starts_with(kVariance);
+}
+
+// The opacity of a layer of colour is a layer of its own.
+void splitAlpha(std::map<std::string, Names>& byLayer) {
+    Names alphas;
+    for (auto& [name, channels] : byLayer) {
+        const std::string alpha = name + ".A";
+        if (channels.size() == kMostComponents + 1 && std::erase(channels, alpha) > 0)
+            alphas.push_back(alpha);
+    }
+    for (const std::string& alpha : alphas)
+        byLayer[alpha] = {alpha};
 }
 
 } // namespace
@@ -82,6 +99,7 @@ std::vector<Layer> layersIn(std::span<const ExrChannel> channels) {
     for (const ExrChannel& channel : channels)
         if (mayBeLayer(channel))
             byLayer[layerOf(channel.name)].push_back(channel.name);
+    splitAlpha(byLayer);
     std::vector<Layer> layers{colorLayerIn(channels)};
     for (const auto& [name, itsChannels] : byLayer)
         if (itsChannels.size() <= kMostComponents && name != kColorLayer)

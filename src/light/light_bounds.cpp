@@ -58,8 +58,9 @@ LightBounds boundsOf(const Mesh& mesh, const Material& material, const glm::uvec
 
 LightBounds unite(const LightBounds& a, const LightBounds& b) {
     const bool isTwoSided = a.isTwoSided || b.isTwoSided;
-    return {glm::min(a.lower, b.lower), glm::max(a.upper, b.upper), unite(a.cone, b.cone, isTwoSided),
-            isTwoSided, a.intensity + b.intensity};
+    return {glm::min(a.lower, b.lower),        glm::max(a.upper, b.upper),
+            unite(a.cone, b.cone, isTwoSided), isTwoSided,
+            a.intensity + b.intensity,         std::max(a.range, b.range)};
 }
 
 std::vector<LightBounds> boundsOf(const Scene& scene, const Emitters& emitters) {
@@ -77,6 +78,7 @@ LightBounds boundsOf(const PunctualLight& light) {
     LightBounds bounds;
     bounds.lower = bounds.upper = glm::dvec3(light.position);
     bounds.intensity = (double{light.intensity.r} + light.intensity.g + light.intensity.b) / 3.0;
+    bounds.range = light.range;
     if (light.kind == PunctualKind::spot)
         bounds.cone = {glm::dvec3(light.direction), light.innerConeAngle,
                        double{light.outerConeAngle} - light.innerConeAngle};

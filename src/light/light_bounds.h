@@ -24,6 +24,7 @@ struct LightBounds {
     LightCone cone;
     bool isTwoSided = false; // the opposite directions too
     double intensity = 0.0;  // W/sr, mean of the channels, along the brightest direction; of many: their sum
+    double range = kNoRange; // metres, of the light that reaches furthest
 
     [[nodiscard]] glm::dvec3 center() const { return 0.5 * (lower + upper); }
 };

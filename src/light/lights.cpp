@@ -26,6 +26,16 @@ double versine(double angle) {
     return 2.0 * half * half;
 }
 
+// Mean of the window 1 - (d / range)^4 over the distances from 0 to `reach`.
+double meanOfWindow(double range, double reach) {
+    if (!(reach > 0.0))
+        return 1.0;
+    if (reach >= range)
+        return 0.8 * range / reach;
+    const double part = reach / range;
+    return 1.0 - 0.2 * part * part * part * part;
+}
+
 void requireFinite(double power, const std::string& light) {
     if (!std::isfinite(power))
         throw Error(fmt::format("cannot sample {}: its power is {} W", light, power));
@@ -115,7 +125,7 @@ std::vector<double> columnWeights(const Lights& lights, bool bsdfFindsEnvironmen
 } // namespace
 
 double powerOf(const PunctualLight& light, const Bounds& bounds) {
-    const double intensity = meanOf(light.intensity);
+    const double intensity = meanOf(light.intensity) * meanOfWindow(light.range, 2.0 * bounds.radius());
     const double inner = versine(light.innerConeAngle);
     const double outer = versine(light.outerConeAngle);
     switch (light.kind) {

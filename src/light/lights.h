@@ -51,8 +51,8 @@ struct Lights {
 [[nodiscard]] Lights collectLights(const Scene& scene, const glm::vec3& environment, LightSelection selection,
                                    bool bsdfFindsEnvironment = true);
 
-// Power in W, mean of the channels. Directional lights and the environment shine through the sphere around
-// the scene.
+// Power in W, mean of the channels; with a range, what of it gets as far as the scene is wide. Directional
+// lights and the environment shine through the sphere around the scene.
 [[nodiscard]] double powerOf(const PunctualLight& light, const Bounds& bounds);
 [[nodiscard]] double environmentPower(const glm::vec3& radiance, const Bounds& bounds);
 

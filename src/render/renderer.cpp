@@ -11,6 +11,8 @@
 
 #include "device_scene/scene_features.h"
 #include "render/wave_budget.h"
+#include "scene/clipping.h"
+#include "scene/view_extent.h"
 #include "shared/scene.h"
 
 namespace lavalight {
@@ -66,16 +68,17 @@ RenderSettings resolveSchedule(RenderSettings settings, bool isCpu) {
 }
 
 FrameParameters makeFrame(const Scene& scene, const Camera& camera, const RenderSettings& settings) {
-    const float halfHeight = camera.projection == Projection::orthographic
-                                 ? camera.halfHeight
-                                 : std::tan(0.5f * camera.verticalFov);
-    const float aspect = static_cast<float>(settings.image.width) / static_cast<float>(settings.image.height);
+    const ViewExtent view = viewExtent(camera, static_cast<float>(settings.image.width),
+                                       static_cast<float>(settings.image.height));
+    const ClipRange clip = neededClipping(scene, camera, view);
     FrameParameters frame{};
     frame.cameraPosition = camera.position;
     frame.projection = static_cast<uint32_t>(camera.projection);
-    frame.cameraRight = camera.right * (halfHeight * aspect);
-    frame.cameraUp = camera.up * halfHeight;
+    frame.cameraRight = camera.right * view.halfWidth;
+    frame.cameraUp = camera.up * view.halfHeight;
     frame.cameraForward = camera.forward;
+    frame.clipNear = clip.nearest;
+    frame.clipDepth = clip.depth;
     frame.lensRadius = camera.lensRadius;
     frame.focusDistance = camera.focusDistance;
     frame.imageWidth = settings.image.width;

@@ -130,8 +130,7 @@ class Renderer {
 // Fills in the schedule and the wave size where the settings leave them to the device.
 [[nodiscard]] RenderSettings resolveSchedule(RenderSettings settings, bool isCpu);
 
-// Parameters for the kernels, but for lights; the vertical field of view is kept whatever the image's aspect
-// ratio.
+// Parameters for the kernels, but for lights.
 [[nodiscard]] FrameParameters makeFrame(const Scene& scene, const Camera& camera,
                                         const RenderSettings& settings);
 void setLights(FrameParameters& frame, const Lights& lights);

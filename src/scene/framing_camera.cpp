@@ -40,6 +40,7 @@ Camera framingCamera(const Bounds& bounds) {
 
     Camera camera;
     camera.name = "framing";
+    camera.framedAspect = 1.0f; // the corners are within a square
     camera.position = glm::vec3(middle - kMargin * distance * forward);
     camera.right = glm::vec3(right);
     camera.up = glm::vec3(up);

@@ -128,8 +128,14 @@ struct Camera {
     float verticalFov = 0.8f;    // perspective: full angle, radians
     float halfHeight = 1.0f;     // orthographic: glTF's ymag, metres
     std::optional<float> aspect; // width / height that the file asks for
-    float lensRadius = 0.0f;     // perspective: metres; 0: all is sharp
-    float focusDistance = 1.0f;  // metres along `forward` to the plane that is sharp
+    // What this wide an image shows stays in the picture: a narrower one shows more height. 0: it shows less
+    // width.
+    float framedAspect = 0.0f;
+    // Camera rays see what is at these distances along `forward`, metres; panoramas see everything.
+    float znear = 0.0f;
+    float zfar = std::numeric_limits<float>::infinity();
+    float lensRadius = 0.0f;    // perspective: metres; 0: all is sharp
+    float focusDistance = 1.0f; // metres along `forward` to the plane that is sharp
     bool operator==(const Camera&) const = default;
 };
 
@@ -140,6 +146,9 @@ struct EnvironmentMap {
     Image image;            // finite, not negative
     uint64_t badTexels = 0; // texels that were infinite, NaN or negative, and had to be changed
 };
+
+// Light that reaches everything.
+constexpr float kNoRange = std::numeric_limits<float>::infinity();
 
 enum class PunctualKind { point, spot, directional };
 
@@ -152,6 +161,7 @@ struct PunctualLight {
     glm::vec3 intensity{1.0f};              // W/sr; directional: W/m^2
     float innerConeAngle = 0.0f;            // spot, radians from the axis: full intensity inside
     float outerConeAngle = 0.7853982f;      // nothing outside
+    float range = kNoRange; // point and spot, metres: KHR_lights_punctual's window ends the light there
 };
 
 // What a file can play; Scene holds one moment of it.
@@ -193,6 +203,8 @@ struct Scene {
     std::vector<std::string> ignoredExtensions; // exact names; they enter the bias ledger
     std::vector<std::string> extensionsUsed;    // exact names as the file lists them
     std::vector<std::string> variants;          // names of the material variants
+    std::vector<std::string> scenes;            // names of all scenes of the file
+    size_t shownScene = 0;                      // the one of them that this is
 
     [[nodiscard]] uint64_t triangleCount() const {
         uint64_t count = 0;

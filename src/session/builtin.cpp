@@ -71,6 +71,8 @@ Scene loadScene(const std::string& nameOrPath, const ImportOptions& options) {
     const auto lamps = countAfter("lamps-", nameOrPath);
     if ((triangles || lamps) && options.seconds)
         throw UsageError(fmt::format("{} has no animation that a time could be asked of", nameOrPath));
+    if ((triangles || lamps) && !options.scene.empty())
+        throw UsageError(fmt::format("--scene: {} has no scenes to choose from", nameOrPath));
     if (triangles) {
         if (*triangles > kMostTriangles)
             throw Error(fmt::format("cannot build {}: at most {} triangles are supported", nameOrPath,

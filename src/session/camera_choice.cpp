@@ -52,7 +52,13 @@ void setFieldOfView(Camera& camera, const CameraChoice& choice) {
             fmt::format("--fov: {} is outside the range above 0 to below 180 degrees", *choice.fov));
     if (choice.panorama || camera.projection != Projection::perspective)
         throw UsageError("--fov: only perspective cameras have one");
+    camera.framedAspect = 0.0f; // this height, whatever the image's width
     camera.verticalFov = static_cast<float>(double{*choice.fov} * std::numbers::pi / 180.0);
+}
+
+void removePlanes(Camera& camera) {
+    camera.znear = Camera{}.znear;
+    camera.zfar = Camera{}.zfar;
 }
 
 void setLens(Camera& camera, const Scene& scene, const CameraChoice& choice) {
@@ -84,6 +90,8 @@ Camera chooseCamera(const Scene& scene, const CameraChoice& choice) {
         camera.projection = Projection::panorama;
         camera.aspect = 2.0f;
     }
+    if (choice.seesAll)
+        removePlanes(camera);
     setLens(camera, scene, choice);
     return camera;
 }
@@ -107,6 +115,7 @@ OptionPairs describe(const CameraChoice& choice) {
     add("aperture", choice.aperture > 0.0f ? number(choice.aperture) : std::nullopt);
     add("focus", number(choice.focus));
     add("panorama", choice.panorama ? std::optional<std::string>("on") : std::nullopt);
+    add("no-clip", choice.seesAll ? std::optional<std::string>("on") : std::nullopt);
     return pairs;
 }
 

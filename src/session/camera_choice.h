@@ -21,6 +21,7 @@ struct CameraChoice {
     float aperture = 0.0f;             // diameter of the lens; 0: all is sharp
     std::optional<float> focus;        // to the plane that is sharp, along the view
     bool panorama = false;             // all directions, laid out as environment maps are
+    bool seesAll = false;              // without the planes of the scene's camera
     bool operator==(const CameraChoice&) const = default;
 };
 

@@ -1,9 +1,12 @@
 #include "session/lit_scene.h"
 
+#include <filesystem>
+#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "gltf/import.h"
 #include "image/environment_file.h"
 #include "session/builtin.h"
 
@@ -28,6 +31,17 @@ Scene loadLitScene(const std::string& nameOrPath, ImportOptions options, const L
     if (!lighting.mapFile.empty())
         readEnvironmentMap(lighting.mapFile, scene);
     return scene;
+}
+
+InputFiles filesOfLitScene(const std::string& nameOrPath, const LightingSettings& lighting) {
+    InputFiles files;
+    files.add(nameOrPath, "the scene that is rendered");
+    std::error_code code;
+    if (std::filesystem::is_regular_file(nameOrPath, code))
+        for (const std::filesystem::path& file : referencedFiles(nameOrPath))
+            files.add(file, "a buffer or picture of the scene");
+    files.add(lighting.mapFile, "the environment map");
+    return files;
 }
 
 } // namespace lavalight

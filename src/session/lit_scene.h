@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "base/input_files.h"
 #include "gltf/import_options.h"
 #include "render/settings.h"
 #include "scene/scene.h"
@@ -14,5 +15,8 @@ namespace lavalight {
 // map.
 [[nodiscard]] Scene loadLitScene(const std::string& nameOrPath, ImportOptions options,
                                  const LightingSettings& lighting);
+
+// The files that loadLitScene would read: scene, buffers, pictures, map.
+[[nodiscard]] InputFiles filesOfLitScene(const std::string& nameOrPath, const LightingSettings& lighting);
 
 } // namespace lavalight

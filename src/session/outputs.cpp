@@ -1,14 +1,17 @@
 #include "session/outputs.h"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
+#include <cctype>
+#include <filesystem>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
 #include "base/file.h"
 #include "base/log.h"
+#include "base/os/file_lock.h"
 #include "image/exr.h"
 #include "image/png.h"
 
@@ -30,17 +33,58 @@ void addPartsOfStages(RenderReport& report, const RenderJob& job) {
         report.stages.emplace_back("processToFirstSamples", *job.toFirstSamples);
 }
 
+// What comes into being.
+std::vector<std::filesystem::path> filesOf(const Outputs& outputs) {
+    std::vector<std::filesystem::path> files;
+    for (const std::string& file : {outputs.exr, outputs.png, outputs.report, outputs.checkpoint})
+        if (!file.empty())
+            files.emplace_back(file);
+    if (!outputs.checkpoint.empty())
+        files.push_back(lockFileOf(outputs.checkpoint));
+    return files;
+}
+
 } // namespace
 
-void requireOutputs(const Outputs& outputs) {
-    const std::array<std::string, 4> files{outputs.exr, outputs.png, outputs.report, outputs.checkpoint};
+void addPicture(Outputs& outputs, const std::string& file, const std::string& option) {
+    std::string ending = std::filesystem::path(file).extension().string();
+    std::transform(ending.begin(), ending.end(), ending.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    if (ending != ".exr" && ending != ".png")
+        throw UsageError(fmt::format("{}: \"{}\" has no ending that names a format of pictures; give .exr "
+                                     "(radiance) or .png (to look at)",
+                                     option, file));
+    std::string& place = ending == ".exr" ? outputs.exr : outputs.png;
+    if (!place.empty())
+        throw UsageError(fmt::format("{}: {} and {} are both {} files; one of a kind is written", option,
+                                     place, file, ending));
+    place = file;
+}
+
+void requireApart(const Outputs& outputs, const InputFiles& inputs) {
+    std::vector<std::filesystem::path> files = filesOf(outputs);
     for (auto file = files.begin(); file != files.end(); ++file) {
-        if (file->empty())
-            continue;
-        if (std::find(files.begin(), file, *file) != file)
-            throw UsageError(fmt::format("{} cannot hold two outputs: give each a file of its own", *file));
-        requireWritable(*file);
+        for (auto other = files.begin(); other != file; ++other)
+            if (isSameFile(*file, *other))
+                throw UsageError(
+                    fmt::format("{} cannot hold two outputs: give each a file of its own", file->string()));
+        inputs.requireApart(*file);
     }
+    if (!outputs.checkpoint.empty())
+        for (const std::filesystem::path& file : unfinishedFiles(outputs.checkpoint))
+            inputs.requireApart(file);
+    for (const std::string& file : {outputs.exr, outputs.png, outputs.report})
+        if (!file.empty() && isLocked(file))
+            throw UsageError(
+                fmt::format("cannot write {}: it is the checkpoint of a render that is under way; give the "
+                            "output another name",
+                            file));
+}
+
+void requireOutputs(const Outputs& outputs) {
+    for (const std::string& file : {outputs.exr, outputs.png, outputs.report, outputs.checkpoint})
+        if (!file.empty())
+            requireWritable(file);
 }
 
 void writeOutputs(RenderJob& job, const Outputs& outputs, const OutputStyle& style, ToneMapper* toneMapper) {

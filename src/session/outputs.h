@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "base/input_files.h"
 #include "render/tone_mapper.h"
 #include "session/render_job.h"
 
@@ -16,7 +17,16 @@ struct Outputs {
     std::string checkpoint; // kept by a Checkpoint, not by writeOutputs
 };
 
-// Throws UsageError where one file is to hold two outputs, and Error where one cannot be written.
+// Sets the picture that the file's ending asks for: .exr or .png. Throws UsageError, which begins with the
+// option, for another ending or a second file of the same kind.
+void addPicture(Outputs& outputs, const std::string& file, const std::string& option);
+
+// Throws UsageError where a file that comes into being with the outputs, a lock or an unfinished one among
+// them, is one that is read, that another output goes to, or that another render keeps its checkpoint in.
+// Reads and writes nothing.
+void requireApart(const Outputs& outputs, const InputFiles& inputs);
+
+// Throws Error where an output cannot be written.
 void requireOutputs(const Outputs& outputs);
 
 // How images are written: what goes into the EXR file, and the PNG's tone mapping.

@@ -2,15 +2,32 @@
 
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "base/log.h"
+#include "scene/clipping.h"
+#include "scene/view_extent.h"
 #include "session/lit_scene.h"
 
 namespace lavalight {
 namespace {
 
+void warnOfFarPlane(PreparedScene& prepared) {
+    const ImageSettings& image = prepared.settings.image;
+    const ViewExtent view =
+        viewExtent(prepared.camera, static_cast<float>(image.width), static_cast<float>(image.height));
+    const uint64_t hidden = trianglesBeyondFar(prepared.scene, prepared.camera, view);
+    if (hidden > 0)
+        prepared.scene.warnings.push_back(fmt::format(
+            "camera \"{}\" ends at its zfar of {:g} m, which hides {} triangles or parts of them: "
+            "--no-clip shows them",
+            prepared.camera.name, prepared.camera.zfar, hidden));
+}
+
 PreparedScene complete(Scene scene, const Camera& camera, const RenderSettings& settings) {
     PreparedScene prepared{std::move(scene), camera, resolveSize(settings, camera)};
     checkSettings(prepared.settings);
+    warnOfFarPlane(prepared);
     return prepared;
 }
 
@@ -27,9 +44,10 @@ void logWarnings(const Scene& scene) {
 
 PreparedScene prepareScene(const RenderPlan& plan, const ImportOptions& moment) {
     Scene scene = loadScene(plan, moment);
-    logWarnings(scene);
     const Camera camera = chooseCamera(scene, plan.camera);
-    return complete(std::move(scene), camera, plan.settings);
+    PreparedScene prepared = complete(std::move(scene), camera, plan.settings);
+    logWarnings(prepared.scene);
+    return prepared;
 }
 
 void RenderSession::use(const std::shared_ptr<ShaderOverlay>& overlay) {
@@ -45,12 +63,12 @@ void RenderSession::use(RenderSettings settings) {
 // The first scene of an animation speaks for all: its warnings, its stand-in camera, its image's size.
 PreparedScene RenderSession::load(const ImportOptions& moment) {
     Scene scene = loadScene(plan_, moment);
-    if (!std::exchange(isWarned_, true))
-        logWarnings(scene);
     const Camera camera = standIn_ ? *standIn_ : chooseCamera(scene, plan_.camera);
     if (!scene.hasOwnCamera)
         standIn_ = camera;
     PreparedScene prepared = complete(std::move(scene), camera, plan_.settings);
+    if (!std::exchange(isWarned_, true))
+        logWarnings(prepared.scene);
     plan_.settings = prepared.settings;
     return prepared;
 }

@@ -25,6 +25,8 @@ Pairs describeOptions(const RenderReport& report) {
         pairs.emplace_back("at", fmt::format("{}", *report.import.seconds));
     if (!report.import.animation.empty())
         pairs.emplace_back("animation", report.import.animation);
+    if (!report.import.scene.empty())
+        pairs.emplace_back("scene", report.import.scene);
     if (!report.import.variant.empty())
         pairs.emplace_back("variant", report.import.variant);
     return pairs;

@@ -8,6 +8,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "scene/look_at.h"
+#include "scene/view_extent.h"
 
 namespace lavalight {
 namespace {
@@ -17,10 +18,10 @@ constexpr glm::vec3 kUp(0.0f, 1.0f, 0.0f);
 // Radians that the direction of view keeps from the poles, where left and right would change places.
 constexpr float kPoleMargin = 0.02f;
 
-// Vertical half extent of what is seen at distance 1 (perspective) or at all (orthographic).
-float halfHeight(const Camera& camera) {
-    return camera.projection == Projection::orthographic ? camera.halfHeight
-                                                         : std::tan(0.5f * camera.verticalFov);
+// What an image of this aspect ratio shows, whatever its pixels.
+ViewExtent extentAt(const Camera& camera, float aspect) {
+    constexpr float kManyRows = 65536.0f;
+    return viewExtent(camera, aspect * kManyRows, kManyRows);
 }
 
 float elevation(const glm::vec3& direction) {
@@ -68,9 +69,9 @@ void CameraRig::look(const glm::vec2& angles) {
     pivot_ = camera_.position + camera_.forward * ahead;
 }
 
-void CameraRig::pan(const glm::vec2& share) {
+void CameraRig::pan(const glm::vec2& share, float aspect) {
     const float scale = camera_.projection == Projection::orthographic ? 1.0f : distance();
-    const float height = 2.0f * halfHeight(camera_) * scale;
+    const float height = 2.0f * extentAt(camera_, aspect).halfHeight * scale;
     fly({-share.x * height, share.y * height, 0.0f});
 }
 
@@ -102,13 +103,14 @@ void CameraRig::focusOn(const glm::vec3& point) {
         camera_.focusDistance = ahead;
 }
 
-OptionPairs cameraOptions(const CameraRig& rig) {
+OptionPairs cameraOptions(const CameraRig& rig, float aspect) {
     const Camera& camera = rig.camera();
     const auto text = [](const glm::vec3& v) { return fmt::format("{},{},{}", v.x, v.y, v.z); };
     OptionPairs options{
         {"look-from", text(camera.position)}, {"look-at", text(rig.pivot())}, {"up", text(camera.up)}};
     if (camera.projection == Projection::perspective)
-        options.emplace_back("fov", fmt::format("{}", glm::degrees(camera.verticalFov)));
+        options.emplace_back(
+            "fov", fmt::format("{}", glm::degrees(2.0f * std::atan(extentAt(camera, aspect).halfHeight))));
     if (camera.lensRadius > 0.0f) {
         options.emplace_back("aperture", fmt::format("{}", 2.0f * camera.lensRadius));
         options.emplace_back("focus", fmt::format("{}", camera.focusDistance));
@@ -132,8 +134,9 @@ std::optional<glm::vec2> project(const Camera& camera, float aspect, const glm::
     const bool isPerspective = camera.projection == Projection::perspective;
     if (isPerspective && local.z <= 0.0f)
         return std::nullopt;
-    const float height = halfHeight(camera) * (isPerspective ? local.z : 1.0f);
-    const glm::vec2 plane(local.x / (height * aspect), local.y / height);
+    const ViewExtent view = extentAt(camera, aspect);
+    const float scale = isPerspective ? local.z : 1.0f;
+    const glm::vec2 plane(local.x / (view.halfWidth * scale), local.y / (view.halfHeight * scale));
     return glm::vec2(0.5f + 0.5f * plane.x, 0.5f - 0.5f * plane.y);
 }
 

@@ -27,8 +27,8 @@ class CameraRig {
     // Turns the camera about itself; the pivot stays ahead of it.
     void look(const glm::vec2& angles);
     // Moves camera and pivot within the image plane, so that the pivot crosses that share of the image's
-    // height.
-    void pan(const glm::vec2& share);
+    // height. `aspect`: its width / height.
+    void pan(const glm::vec2& share, float aspect);
     // Multiplies the distance to the pivot; an orthographic camera's view, instead.
     void dolly(float factor);
     // Moves camera and pivot along right, up and forward, metres.
@@ -49,8 +49,9 @@ class CameraRig {
     glm::vec3 pivot_;
 };
 
-// Options (without dashes) of `lavalight render` that place a camera there.
-[[nodiscard]] OptionPairs cameraOptions(const CameraRig& rig);
+// Options (without dashes) of `lavalight render` that place a camera there, for an image of that width /
+// height.
+[[nodiscard]] OptionPairs cameraOptions(const CameraRig& rig, float aspect);
 
 // Where a point appears: (0, 0) is the image's top left corner, (1, 1) its bottom right one. Nothing for what
 // lies behind a perspective camera. `aspect`: width / height.

@@ -44,7 +44,7 @@ void drag(CameraRig& rig, const glm::vec2& window, ControlAnswer& answer) {
         io.KeyAlt ? rig.look({turn.x, -turn.y}) : rig.orbit({turn.x, -turn.y});
     else if (ImGui::IsMouseDragging(ImGuiMouseButton_Right, kClickPoints) ||
              ImGui::IsMouseDragging(ImGuiMouseButton_Middle, kClickPoints))
-        rig.pan(delta);
+        rig.pan(delta, window.x / window.y);
     else
         return;
     answer.hasMoved = true;

@@ -260,7 +260,9 @@ void Viewer::send() {
     view_.settings.image.height = pixels.y;
     // For the record of saved images.
     view_.settings.provenance.cameraOptions =
-        view_.rig.camera() == view_.home ? view_.homeOptions : cameraOptions(view_.rig);
+        view_.rig.camera() == view_.home
+            ? view_.homeOptions
+            : cameraOptions(view_.rig, static_cast<float>(pixels.x) / static_cast<float>(pixels.y));
     if (!view_.isSplit)
         view_.other = view_.settings.estimator;
     LiveRequest request{view_.scene, view_.rig.camera(), view_.settings, std::nullopt,

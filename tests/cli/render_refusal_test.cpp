@@ -138,9 +138,9 @@ TEST_F(RenderRefusal, ToneCurvesThatThereAreNotOrThatNothingIsShownBy) {
     expectRefusal({"--png", "out.png", "--tonemap", "filmic"}, kWrongUsage,
                   "filmic not in {aces,agx,linear,neutral}");
     expectRefusal({"--tonemap", "agx"}, kWrongUsage, "--tonemap");
-    expectRefusal({"--exposure", "1", "-o", "out.exr"}, kWrongUsage, "--png");
-    expectRefusal({"--tonemap", "linear", "-o", "out.exr"}, kWrongUsage, "--png");
-    expectRefusal({"--tonemap", "agx", "-o", "out.exr", "--frames", "0:2"}, kWrongUsage, "--png");
+    expectRefusal({"--exposure", "1", "-o", "out.exr"}, kWrongUsage, "-o OUT.png");
+    expectRefusal({"--tonemap", "linear", "-o", "out.exr"}, kWrongUsage, "-o OUT.png");
+    expectRefusal({"--tonemap", "agx", "-o", "out.exr", "--frames", "0:2"}, kWrongUsage, "-o OUT.png");
 }
 
 TEST_F(RenderRefusal, OptionValuesOutOfRange) {
@@ -213,9 +213,11 @@ TEST_F(RenderRefusal, OutputsThatCannotBeWritten) {
     expectRefusal({"-o", "none/out.exr"}, kFailed, "none/out.exr");
     expectRefusal({"--png", "none/out.png"}, kFailed, "none/out.png");
     expectRefusal({"--report", "none/out.json"}, kFailed, "none/out.json");
-    expectRefusal({"-o", "."}, kFailed, "directory");
-    expectRefusal({"-o", "/dev/null"}, kFailed, "/dev/null");
-    expectRefusal({"-o", "same", "--png", "same"}, kWrongUsage, "same");
+    std::filesystem::create_directory(folder_ / "folder.exr");
+    std::filesystem::create_symlink("/dev/null", folder_ / "null.exr");
+    expectRefusal({"-o", "folder.exr"}, kFailed, "directory");
+    expectRefusal({"-o", "null.exr"}, kFailed, "not a regular file");
+    expectRefusal({"-o", "same.exr", "--report", "same.exr"}, kWrongUsage, "same.exr");
 }
 
 } // namespace

@@ -27,8 +27,8 @@ const MaterialRecord kMaterialRecord{
     19,        20, {21, 22, 23}, 24, 25,          26,           27, 28, {29, 30, 31}, 32, 33, 34,
     35,        36, 37,           38, {39, 40},    {41, 42, 43}, 44};
 const LightRecord kLightRecord{1, 2, 3, 4};
-const PunctualRecord kPunctualRecord{{1, 2, 3}, 4, {5, 6, 7}, 8, {9, 10, 11}, 12};
-const LightTreeRecord kLightTreeRecord{{1, 2, 3}, 4, 5, 6, 7, 8};
+const PunctualRecord kPunctualRecord{{1, 2, 3}, 4, {5, 6, 7}, 8, {9, 10, 11}, 12, 13, {}};
+const LightTreeRecord kLightTreeRecord{{1, 2, 3}, 4, 5, 6, 7, 8, 9, {}};
 const TextureRecord kTextureRecord{{1, 2, 3}, 4, {5, 6, 7}, 8, 9, 10, 11, 12};
 const TriangleUvs kTriangleUvs{{1, 2}, {3, 4}, {5, 6}, {7, 8}};
 const TriangleColors kTriangleColors{{1, 2}, {3, 4}, {5, 6}, {7, 8}};

@@ -224,6 +224,43 @@ TEST_F(LightTest, UnderManyLampsTheTreeHasAFortiethOfTheVarianceOfPickingByPower
         << "by power: " << byPower.variance() << ", tree: " << byTree.variance();
 }
 
+// KHR_lights_punctual's window, and no light from beyond a range; the tree passes by what ends before the
+// point, so that it has less variance than picking by power.
+TEST_F(LightTest, LampsWithRangesBringTheSumOfTheirWindows) {
+    Random random(11);
+    Scene scene;
+    double expected = 0.0;
+    for (int i = 0; i < 500; ++i) {
+        PunctualLight light;
+        light.position = {random.between(-9.0f, 9.0f), random.between(-9.0f, 9.0f),
+                          random.between(0.2f, 3.0f)};
+        light.range = i % 50 == 0 ? kNoRange : random.between(0.5f, 8.0f);
+        scene.punctualLights.push_back(light);
+        const double distance = glm::length(glm::dvec3(light.position));
+        const double window = 1.0 - std::pow(distance / double{light.range}, 4.0);
+        expected += std::max(0.0, window) / (distance * distance);
+    }
+    scene.bounds = {glm::vec3(-9.0f), glm::vec3(9.0f)};
+    double variances[2] = {};
+    for (const LightSelection selection : {LightSelection::power, LightSelection::tree}) {
+        SampleSums sums;
+        for (const Answer& answer : sample(scene, glm::vec3(0.0f), selection)) {
+            const auto& lamp = scene.punctualLights.at(answer.light);
+            if (answer.pmf > 0.0f && glm::length(lamp.position) >= lamp.range) {
+                ASSERT_EQ(answer.radiance, glm::vec3(0.0f)) << "light " << answer.light;
+            }
+            if (selection == LightSelection::tree && answer.pmf > 0.0f) {
+                ASSERT_EQ(answer.pmf, answer.evaluatedPmf);
+            }
+            sums.add(answer);
+        }
+        EXPECT_NEAR(sums.mean(), expected, 4.0 * std::sqrt(sums.variance() / kSamples));
+        variances[selection == LightSelection::tree ? 1 : 0] = sums.variance();
+    }
+    EXPECT_LT(variances[1], 0.25 * variances[0])
+        << "by power: " << variances[0] << ", tree: " << variances[1];
+}
+
 // Irradiance at a hundredth of the light's width below its middle: by area, the
 // few points right above carry it all.
 TEST_F(LightTest, NearALargeQuadTheVarianceIsATenthOfThatOfAreaSampling) {

@@ -121,7 +121,7 @@ TEST(Session, FailuresAreExceptionsThatNameWhatFailed) {
     plan.device.wanted = "no such device";
     RenderSession nowhere(plan);
     EXPECT_THROW(static_cast<void>(nowhere.prepare({}, {})), Error);
-    EXPECT_THROW(requireOutputs({"a.exr", "a.exr", {}, {}}), UsageError);
+    EXPECT_THROW(requireApart({"a.exr", "a.exr", {}, {}}, {}), UsageError);
 }
 
 } // namespace

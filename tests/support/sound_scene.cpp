@@ -67,6 +67,8 @@ std::string unsoundLight(const PunctualLight& light) {
         return "place or intensity not finite";
     if (!isUnit(light.direction))
         return "direction not of unit length";
+    if (!(light.range >= 0.0f)) // NaN is not
+        return "range below 0";
     return light.innerConeAngle <= light.outerConeAngle ? "" : "cones inside out";
 }
 

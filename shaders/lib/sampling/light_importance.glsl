@@ -2,7 +2,9 @@
 // nothing.
 // Based on: Conty Estevez, Kulla, "Importance Sampling of Many Lights with Adaptive Tree Splitting", 2018, section 5;
 // without angles as in Pharr, Jakob, Humphreys, "Physically Based Rendering", 4th ed., 2023, section 12.6.3.
+#include "lib/features.glsl"
 #include "lib/math/octahedral.glsl"
+#include "lib/sampling/range_window.glsl"
 #include "shared/scene.h"
 
 // cos(max(0, a - b)) of angles in [0, pi].
@@ -34,6 +36,10 @@ float lightImportance(LightTreeRecord node, vec3 p, vec3 n, bool bothSides) {
     const float cosReception = cosOfDifference(bothSides ? abs(cosReceiver) : cosReceiver, cosSeen);
 
     const float falloff = cosEmission >= cosines.y ? max(cosEmission, 0.0) : 0.0;
-    const float received = node.intensity * falloff * max(cosReception, 0.0) / max(max(distance2, radius2), 1e-37);
+    float received = node.intensity * falloff * max(cosReception, 0.0) / max(max(distance2, radius2), 1e-37);
+    if (sceneHas(kFeatureLightRange)) { // as if all lights were at the nearest point of the sphere, and reached furthest
+        const float nearest = max(sqrt(distance2) - node.radius, 0.0);
+        received *= rangeWindow(nearest * nearest, node.inverseRange2);
+    }
     return min(received, kLargestImportance);
 }

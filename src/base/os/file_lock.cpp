@@ -35,8 +35,7 @@ bool isStillThere(int descriptor, const fs::path& path) {
 
 } // namespace
 
-FileLock::FileLock(const fs::path& file) : path_(file) {
-    path_ += ".lock";
+FileLock::FileLock(const fs::path& file) : path_(lockFileOf(file)) {
     do {
         if (descriptor_ >= 0)
             ::close(descriptor_);
@@ -60,6 +59,21 @@ FileLock::~FileLock() {
     std::error_code ignored;
     fs::remove(path_, ignored);
     ::close(descriptor_);
+}
+
+fs::path lockFileOf(const fs::path& file) {
+    fs::path path = file;
+    path += ".lock";
+    return path;
+}
+
+bool isLocked(const fs::path& file) {
+    const int descriptor = ::open(lockFileOf(file).c_str(), O_RDONLY | O_CLOEXEC);
+    if (descriptor < 0)
+        return false;
+    const bool isHeld = ::flock(descriptor, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+    ::close(descriptor);
+    return isHeld;
 }
 
 } // namespace lavalight

@@ -20,4 +20,10 @@ class FileLock {
     int descriptor_ = -1;
 };
 
+// The file that a lock of `file` is held on.
+[[nodiscard]] std::filesystem::path lockFileOf(const std::filesystem::path& file);
+
+// Whether somebody holds the lock of `file`. Changes nothing.
+[[nodiscard]] bool isLocked(const std::filesystem::path& file);
+
 } // namespace lavalight

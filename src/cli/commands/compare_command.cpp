@@ -6,7 +6,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/error.h"
 #include "base/file.h"
+#include "base/input_files.h"
 #include "base/log.h"
 #include "base/parse.h"
 #include "compare/compare_report.h"
@@ -98,7 +100,19 @@ void CompareCommand::writeFiles(const Comparison& comparison, const ComparedImag
         writeFileAtomically(html_, reportHtml(comparison, image, reference));
 }
 
+void CompareCommand::requireOutputsApart() const {
+    InputFiles inputs;
+    inputs.add(image_, "the image that is compared");
+    inputs.add(reference_, "the reference that is compared");
+    for (const std::string& file : {heatmap_, html_})
+        if (!file.empty())
+            inputs.requireApart(file);
+    if (!heatmap_.empty() && !html_.empty() && isSameFile(heatmap_, html_))
+        throw UsageError(fmt::format("{} cannot hold two outputs: give each a file of its own", html_));
+}
+
 int CompareCommand::run() {
+    requireOutputsApart();
     const ComparedImage image = readCompared(image_);
     const ComparedImage reference = readCompared(reference_);
     const Comparison comparison = compare(image, reference, criteria());

@@ -18,6 +18,7 @@ class CompareCommand : public Command {
 
   private:
     [[nodiscard]] Criteria criteria();
+    void requireOutputsApart() const;
     void writeFiles(const Comparison& comparison, const ComparedImage& image,
                     const ComparedImage& reference) const;
 

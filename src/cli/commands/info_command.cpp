@@ -1,6 +1,7 @@
 #include "cli/commands/info_command.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
 
@@ -65,13 +66,20 @@ std::string vectorText(const glm::vec3& v) {
     return fmt::format("({:.6g}, {:.6g}, {:.6g})", v.x + 0.0f, v.y + 0.0f, v.z + 0.0f);
 }
 
+std::string planesText(const Camera& camera) {
+    if (std::isfinite(camera.zfar))
+        return fmt::format(", sees {:.6g} m to {:.6g} m", camera.znear, camera.zfar);
+    return camera.znear > 0.0f ? fmt::format(", sees from {:.6g} m on", camera.znear) : "";
+}
+
 std::string cameraText(const Camera& camera) {
     const std::string lens =
         camera.projection == Projection::perspective
             ? fmt::format("perspective, {:.4g} degrees high", glm::degrees(camera.verticalFov))
             : fmt::format("orthographic, {:.4g} m high", 2.0f * camera.halfHeight);
     const std::string aspect = camera.aspect ? fmt::format(", aspect {:.4g}", *camera.aspect) : "";
-    return fmt::format("\"{}\": {}{}, at {}", camera.name, lens, aspect, vectorText(camera.position));
+    return fmt::format("\"{}\": {}{}{}, at {}", camera.name, lens, aspect, planesText(camera),
+                       vectorText(camera.position));
 }
 
 const char* kindName(PunctualKind kind) {
@@ -97,6 +105,8 @@ std::string lightText(const PunctualLight& light) {
     if (light.kind == PunctualKind::spot)
         text += fmt::format(", cone {:.4g} to {:.4g} degrees from its axis",
                             glm::degrees(light.innerConeAngle), glm::degrees(light.outerConeAngle));
+    if (light.range < kNoRange)
+        text += fmt::format(", range {:.6g} m", light.range);
     return text;
 }
 
@@ -148,6 +158,8 @@ void printText(const Scene& scene) {
                texelCount(scene), static_cast<double>(pictureBytes(scene)) / kMebibyte);
     fmt::print("extensions used      {}\n", extensionText(scene));
     fmt::print("extensions ignored   {}\n", listText(scene.ignoredExtensions));
+    for (size_t i = 0; i < scene.scenes.size(); ++i)
+        fmt::print("scene {:<14} \"{}\"{}\n", i, scene.scenes[i], i == scene.shownScene ? ", shown" : "");
     for (size_t i = 0; i < scene.cameras.size(); ++i)
         fmt::print("camera {:<13} {}\n", i, cameraText(scene.cameras[i]));
     for (size_t i = 0; i < scene.punctualLights.size(); ++i)
@@ -176,6 +188,10 @@ nlohmann::ordered_json cameraJson(const Camera& camera) {
     json["aspect"] = nullptr;
     if (camera.aspect)
         json["aspect"] = *camera.aspect;
+    json["znear"] = camera.znear;
+    json["zfar"] = nullptr;
+    if (std::isfinite(camera.zfar))
+        json["zfar"] = camera.zfar;
     json["position"] = vectorJson(camera.position);
     json["forward"] = vectorJson(camera.forward);
     json["up"] = vectorJson(camera.up);
@@ -193,6 +209,8 @@ nlohmann::ordered_json lightJson(const PunctualLight& light) {
         json["innerConeDegrees"] = glm::degrees(light.innerConeAngle);
         json["outerConeDegrees"] = glm::degrees(light.outerConeAngle);
     }
+    if (light.range < kNoRange)
+        json["range"] = light.range;
     return json;
 }
 
@@ -223,6 +241,8 @@ nlohmann::ordered_json sceneJson(const Scene& scene) {
         {"vertices", vertexCount(scene)},
         {"meshes", scene.meshes.size()},
         {"materials", materialsJson(scene)},
+        {"scenes", scene.scenes},
+        {"shownScene", scene.shownScene},
         {"variants", scene.variants},
         {"pictures", scene.pictures.size()},
         {"texels", texelCount(scene)},

@@ -6,6 +6,7 @@
 #include "base/file.h"
 #include "base/log.h"
 #include "film/film_merge.h"
+#include "session/outputs.h"
 
 namespace lavalight {
 
@@ -26,6 +27,14 @@ MergeCommand::MergeCommand(CLI::App& app)
 int MergeCommand::run() {
     if (parts_.size() < 2)
         throw UsageError("merge: one image has nothing to be joined with; give two or more");
+    InputFiles inputs;
+    for (const std::string& part : parts_)
+        inputs.add(part, "one of the parts");
+    Outputs outputs;
+    addPicture(outputs, output_, "-o");
+    if (outputs.exr.empty())
+        throw UsageError(fmt::format("-o: {} is no .exr file, which parts are joined in", output_));
+    requireApart(outputs, inputs);
     requireWritable(output_);
     NamedFilm sum{parts_.front(), readFilmFile(parts_.front())};
     for (size_t i = 1; i < parts_.size(); ++i) {

@@ -15,6 +15,7 @@
 #include "cli/progress.h"
 #include "session/builtin.h"
 #include "session/frame_sequence.h"
+#include "session/lit_scene.h"
 
 namespace lavalight {
 namespace {
@@ -43,9 +44,14 @@ RenderCommand::RenderCommand(CLI::App& app)
                         ") or .gltf or .glb file")
         ->type_name("SCENE");
     parser()
-        .add_option("-o,--output", outputs_.exr, "EXR file; default: the scene's name, unless --png is given")
-        ->type_name("OUT.exr");
-    parser().add_option("--png", outputs_.png, "PNG file to look at (sRGB)")->type_name("OUT.png");
+        .add_option(
+            "-o,--output", pictures_,
+            "Picture: .exr (radiance) or .png (sRGB, to look at); may be given once for each; default: "
+            "the scene's name and .exr")
+        ->type_name("OUT.exr|OUT.png")
+        ->default_str("")
+        ->allow_extra_args(false);
+    parser().add_option("--png", png_, "Another way to write -o OUT.png")->type_name("OUT.png");
     parser()
         .add_option("--report", outputs_.report, "JSON report: times, rays, memory, ledger")
         ->type_name("REPORT.json");
@@ -60,18 +66,53 @@ RenderPlan RenderCommand::plan() const {
 
 void RenderCommand::checkOptions() const {
     if (tone_.isGiven() && outputs_.png.empty())
-        throw UsageError("--tonemap and --exposure are for a PNG; give --png OUT.png, or leave them out");
+        throw UsageError("--tonemap and --exposure are for a PNG; give -o OUT.png, or leave them out");
     if (frames_.isAsked() && shaders_.isWatching())
         throw UsageError("--watch renders one image over and over, --frames several: give one of them");
+}
+
+void RenderCommand::takeOutputs() {
+    for (const std::string& picture : pictures_)
+        addPicture(outputs_, picture, "-o");
+    if (!png_.empty()) {
+        Outputs asked;
+        addPicture(asked, png_, "--png");
+        if (asked.png.empty())
+            throw UsageError(fmt::format("--png: {} has the ending of another format; give it to -o", png_));
+        addPicture(outputs_, png_, "--png");
+    }
+    if (outputs_.exr.empty() && outputs_.png.empty())
+        outputs_.exr = std::filesystem::path(scene_).stem().string() + ".exr";
+}
+
+Outputs RenderCommand::outputsOf(uint32_t frame) const {
+    return {numberedFile(outputs_.exr, frame),
+            numberedFile(outputs_.png, frame),
+            numberedFile(outputs_.report, frame),
+            {}};
+}
+
+void RenderCommand::requireOutputsApart(const RenderPlan& plan) const {
+    InputFiles inputs = filesOfLitScene(plan.scene, plan.settings.lighting);
+    shaders_.addFiles(inputs);
+    if (frames_.isAsked()) {
+        const FrameRange range = frames_.range();
+        for (uint32_t frame = range.first; frame < range.end; ++frame)
+            requireApart(outputsOf(frame), inputs);
+        return;
+    }
+    Outputs outputs = outputs_;
+    outputs.checkpoint = checkpoints_.given();
+    requireApart(outputs, inputs);
 }
 
 int RenderCommand::run() {
     if (quiet_)
         configureLog(LogLevel::quiet);
-    if (outputs_.exr.empty() && outputs_.png.empty())
-        outputs_.exr = std::filesystem::path(scene_).stem().string() + ".exr";
+    takeOutputs();
     const RenderPlan plan = this->plan();
     checkOptions();
+    requireOutputsApart(plan);
     outputs_.checkpoint = checkpoints_.file(plan.settings);
     RenderSession session(plan);
     if (const auto overlay = shaders_.overlay())
@@ -87,10 +128,7 @@ int RenderCommand::run() {
 int RenderCommand::runSequence(RenderSession& session) const {
     const FrameRange range = frames_.range();
     for (uint32_t frame = range.first; frame < range.end; ++frame) {
-        const Outputs files{numberedFile(outputs_.exr, frame),
-                            numberedFile(outputs_.png, frame),
-                            numberedFile(outputs_.report, frame),
-                            {}};
+        const Outputs files = outputsOf(frame);
         requireOutputs(files);
         Checkpoint none({}, {});
         const ImportOptions moment = sceneOptions_.importOptionsAt(range.secondsOf(frame));

@@ -1,8 +1,10 @@
 // `lavalight render`: a scene in, an image out.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "cli/command.h"
 #include "cli/options/checkpoint_options.h"
@@ -23,7 +25,13 @@ class RenderCommand : public Command {
 
   private:
     [[nodiscard]] RenderPlan plan() const;
+    // Sorts the pictures that are asked for by their formats.
+    void takeOutputs();
     void checkOptions() const;
+    // The files of one frame.
+    [[nodiscard]] Outputs outputsOf(uint32_t frame) const;
+    // Throws UsageError where an output would replace an input or another output, of any frame.
+    void requireOutputsApart(const RenderPlan& plan) const;
     [[nodiscard]] int runSequence(RenderSession& session) const;
     [[nodiscard]] int runWatching(RenderSession& session) const;
     [[nodiscard]] int renderMoment(RenderSession& session, const ImportOptions& moment,
@@ -37,6 +45,8 @@ class RenderCommand : public Command {
     ToneOptions tone_;
     CheckpointOptions checkpoints_;
     std::string scene_ = "cornell-box";
+    std::vector<std::string> pictures_; // -o
+    std::string png_;
     Outputs outputs_;
     bool quiet_ = false;
 };

@@ -40,6 +40,8 @@ CameraOptions::CameraOptions(CLI::App& parser) : parser_(&parser) {
         ->type_name("METRES");
     parser.add_flag("--panorama", choice_.panorama,
                     "All directions around the camera, laid out as environment maps are");
+    parser.add_flag("--no-clip", choice_.seesAll,
+                    "See what is nearer than the camera's znear or beyond its zfar, too");
 }
 
 CameraChoice CameraOptions::choice() const {

@@ -17,6 +17,8 @@ class CheckpointOptions {
     CheckpointOptions(const CheckpointOptions&) = delete;
     CheckpointOptions& operator=(const CheckpointOptions&) = delete;
 
+    // The file as given, unchecked; empty: none.
+    [[nodiscard]] const std::string& given() const { return file_; }
     // The file; empty: no checkpoints are wanted. Throws UsageError for options that make no sense together,
     // and Error where the file must not be written.
     [[nodiscard]] std::string file(const RenderSettings& settings) const;

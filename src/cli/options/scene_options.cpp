@@ -25,6 +25,10 @@ SceneOptions::SceneOptions(CLI::App& parser) : parser_(&parser) {
                     "Animation by name or index (see lavalight info); default: the first")
         ->type_name("NAME|INDEX");
     parser
+        .add_option("--scene", options_.scene,
+                    "Scene of the file by name or index (see lavalight info); default: the one it names")
+        ->type_name("NAME|INDEX");
+    parser
         .add_option("--variant", options_.variant,
                     "Variant of the materials by name or index (see lavalight info)")
         ->type_name("NAME|INDEX");

@@ -1,6 +1,7 @@
 #include "cli/options/shader_options.h"
 
 #include <filesystem>
+#include <system_error>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -42,6 +43,15 @@ std::string ShaderOptions::folder() const {
         throw UsageError("--watch: there is no folder of shaders here; give --shaders DIR (lavalight "
                          "new-experiment makes one)");
     return kOwnFolder;
+}
+
+void ShaderOptions::addFiles(InputFiles& inputs) const {
+    if (folder_.empty() && !(isWatching_ && isInSourceTree()))
+        return;
+    std::error_code ended; // a folder that cannot be read is told of by overlay()
+    for (std::filesystem::recursive_directory_iterator entry(folder(), ended), end; !ended && entry != end;
+         entry.increment(ended))
+        inputs.add(entry->path(), "one of the shaders");
 }
 
 std::shared_ptr<ShaderOverlay> ShaderOptions::overlay() const {

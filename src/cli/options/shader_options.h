@@ -7,6 +7,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "base/input_files.h"
 #include "kernels/shader_overlay.h"
 #include "render/renderer.h"
 #include "render/tone_mapper.h"
@@ -32,6 +33,9 @@ class ShaderOptions {
     // An overlay of the folder as it is now; null where none was asked for. Warns of files that nothing
     // includes. Throws as ShaderOverlay does.
     [[nodiscard]] std::shared_ptr<ShaderOverlay> overlay() const;
+
+    // Adds the files of the folder to those that no output may replace.
+    void addFiles(InputFiles& inputs) const;
 
     // An overlay of the folder once the files `changes` are saved; null unless they give the renderer, or the
     // tone mapper if there is one, other kernels. Tells on stderr what changed, and what does not compile.

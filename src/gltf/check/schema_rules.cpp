@@ -33,9 +33,10 @@ void addFileRules(std::vector<ObjectRule>& rules) {
 void addLightRules(std::vector<ObjectRule>& rules) {
     rules.push_back(
         {"extensions.KHR_lights_punctual", {{"lights", Kind::object, Need::optional, kAnyLength}}});
-    rules.push_back({"extensions.KHR_lights_punctual.lights[]",
-                     {required("type", Kind::text), optional("name", Kind::text),
-                      optional("intensity", Kind::number), numbers("color", 3)}});
+    rules.push_back(
+        {"extensions.KHR_lights_punctual.lights[]",
+         {required("type", Kind::text), optional("name", Kind::text), optional("intensity", Kind::number),
+          optional("range", Kind::number), numbers("color", 3)}});
     rules.push_back({"extensions.KHR_lights_punctual.lights[].spot",
                      {optional("innerConeAngle", Kind::number), optional("outerConeAngle", Kind::number)}});
     rules.push_back({"nodes[].extensions.KHR_lights_punctual",

@@ -26,6 +26,8 @@ struct GltfDocument {
     std::vector<std::string> ignoredExtensions; // listed or present on an object, and not supported
     std::vector<GltfImage> images;
     std::vector<GltfTexture> textures;
+    std::vector<std::string> scenes;   // names
+    size_t scene = 0;                  // index of the scene that is to be shown
     std::vector<std::string> variants; // names
     std::optional<size_t> variant;     // index of the variant that is to be shown
 

@@ -92,4 +92,16 @@ std::string loadUri(std::string_view uri, const GltfSource& source) {
     return uri.starts_with("data:") ? decodeDataUri(uri) : readFile(fileOf(uri, source));
 }
 
+std::vector<std::filesystem::path> filesNamedBy(std::string_view uri) {
+    std::vector<std::filesystem::path> files;
+    for (std::string name :
+         {std::string(uri), percentDecoded(uri), percentDecoded(uri.substr(0, uri.find_first_of("?#")))}) {
+        if (name.empty() || name.find('\0') != std::string::npos)
+            continue;
+        std::replace(name.begin(), name.end(), '\\', '/');
+        files.emplace_back(name);
+    }
+    return files;
+}
+
 } // namespace lavalight

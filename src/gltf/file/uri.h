@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace lavalight {
 
@@ -21,5 +22,9 @@ struct GltfSource {
 // Backslashes are slashes, as some exporters on Windows write them. Throws Error, which names neither the
 // scene nor the URI.
 [[nodiscard]] std::string loadUri(std::string_view uri, const GltfSource& source);
+
+// The paths from the scene's folder that a URI may spell, to compare them with those of other files: as it
+// stands, decoded, and decoded up to a query or fragment.
+[[nodiscard]] std::vector<std::filesystem::path> filesNamedBy(std::string_view uri);
 
 } // namespace lavalight

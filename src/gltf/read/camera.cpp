@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
+#include <string>
 
 #include <glm/gtc/constants.hpp>
 
@@ -30,6 +33,24 @@ bool placeCamera(const glm::dmat4& toWorld, Camera& camera) {
     return isFinite(camera.position);
 }
 
+void setAspect(double aspect, Camera& camera) {
+    camera.aspect = static_cast<float>(aspect);
+    camera.framedAspect = *camera.aspect;
+}
+
+// Infinite where the file names no far plane. Planes that would leave nothing to be seen are left out.
+void setPlanes(JsonView source, const std::string& name, Camera& camera, GltfNotes& notes) {
+    constexpr double kEndless = std::numeric_limits<float>::infinity();
+    const auto nearest = static_cast<float>(source.number("znear", 0.0));
+    const auto farthest = static_cast<float>(source.number("zfar", kEndless));
+    if (!(nearest >= 0.0f && nearest < farthest)) {
+        notes.addObject("clipping planes with nothing between them were left out", name);
+        return;
+    }
+    camera.znear = nearest;
+    camera.zfar = farthest;
+}
+
 // False for a field of view that no image has.
 bool setPerspective(JsonView source, Camera& camera) {
     const double yfov = source.number("yfov", 0.0);
@@ -37,7 +58,7 @@ bool setPerspective(JsonView source, Camera& camera) {
     camera.projection = Projection::perspective;
     camera.verticalFov = static_cast<float>(yfov);
     if (aspect > 0.0)
-        camera.aspect = static_cast<float>(aspect);
+        setAspect(aspect, camera);
     return yfov > 0.0 && yfov < glm::pi<double>();
 }
 
@@ -47,7 +68,7 @@ bool setOrthographic(JsonView source, Camera& camera) {
     camera.projection = Projection::orthographic;
     camera.halfHeight = static_cast<float>(std::abs(ymag));
     if (xmag != 0.0 && ymag != 0.0)
-        camera.aspect = static_cast<float>(std::abs(xmag / ymag));
+        setAspect(std::abs(xmag / ymag), camera);
     return camera.halfHeight > 0.0f && std::isfinite(camera.halfHeight);
 }
 
@@ -73,11 +94,13 @@ std::vector<Camera> readCameras(const GltfDocument& document, const std::vector<
         const bool projects = source.text("type") == "orthographic"
                                   ? setOrthographic(source["orthographic"], camera)
                                   : setPerspective(source["perspective"], camera);
-        if (projects && placeCamera(placed.toWorld, camera))
+        const std::string name = describe("camera", *number, camera.name);
+        if (projects && placeCamera(placed.toWorld, camera)) {
+            setPlanes(source[source.text("type")], name, camera, notes);
             found.push_back({*number, camera});
-        else
-            notes.addObject("cameras that cannot form an image were left out",
-                            describe("camera", *number, camera.name));
+        } else {
+            notes.addObject("cameras that cannot form an image were left out", name);
+        }
     }
     std::stable_sort(found.begin(), found.end(),
                      [](const NumberedCamera& a, const NumberedCamera& b) { return a.number < b.number; });

@@ -1,6 +1,5 @@
 // Point, spot and directional lights (KHR_lights_punctual): they shine along -z of their node. Candela and
-// lux are taken as W/sr and W/m^2. "range" is ignored by design: light falls off with the square of the
-// distance, wherever it gets.
+// lux are taken as W/sr and W/m^2.
 #include "gltf/read/light.h"
 
 #include <algorithm>
@@ -51,6 +50,17 @@ void readCone(JsonView spot, const std::string& name, PunctualLight& light, Gltf
     light.innerConeAngle = static_cast<float>(std::clamp(innerAngle, 0.0, outer));
 }
 
+// Directional lights have none, and nothing is beyond the reach of a light without one.
+float readRange(JsonView source, const std::string& name, GltfNotes& notes) {
+    if (!source.has("range"))
+        return kNoRange;
+    const double range = source.number("range", 0.0);
+    if (range > 0.0)
+        return static_cast<float>(std::min(range, double{kNoRange}));
+    notes.addObject("ranges of lights that are not above 0 were left out", name);
+    return kNoRange;
+}
+
 // What of a light does not depend on its node; nothing for an unknown type.
 std::optional<PunctualLight> readLight(JsonView source, const std::string& name, GltfNotes& notes) {
     const std::optional<PunctualKind> kind = kindOf(source.text("type"));
@@ -67,6 +77,8 @@ std::optional<PunctualLight> readLight(JsonView source, const std::string& name,
         light.intensity *= factors.clamped(source.vector<3>("color", glm::dvec3(1.0)), 1.0, "color");
     if (light.kind == PunctualKind::spot)
         readCone(source["spot"], name, light, notes);
+    if (light.kind != PunctualKind::directional)
+        light.range = readRange(source, name, notes);
     return light;
 }
 

@@ -145,7 +145,7 @@ LocalMesh readPrimitive(const GltfDocument& document, JsonView primitive, const 
     noteUnread(document, primitive, name, notes);
     std::vector<glm::uvec3> triangles = readTriangles(document, primitive, vertexCount);
     local.vertices = compactIndices(triangles);
-    local.mesh = readVertices(document, primitive, local.vertices, name, notes);
+    local.mesh = readVertices(document, primitive, local.vertices);
     local.mesh.triangles = std::move(triangles);
     return local;
 }
@@ -182,10 +182,12 @@ class MeshReader {
             local.mesh.material = static_cast<uint32_t>(material.value_or(materials_.size() - 1));
             if (local.mesh.triangles.empty())
                 continue;
+            if (primitive["targets"].size() == 0)
+                limitVertices(local.mesh, name, notes_);
             for (const PlacedNode* placed : nodes) {
                 const JsonView node = document_.list("nodes")[placed->node];
                 local.mesh.name = printable(ownName.empty() ? node.text("name") : ownName);
-                show(local, *placed, node);
+                show(local, *placed, node, name);
             }
         }
     }
@@ -197,7 +199,7 @@ class MeshReader {
 
   private:
     // What one node shows of a primitive: morphed, then skinned or placed.
-    void show(const LocalMesh& local, const PlacedNode& placed, JsonView node) {
+    void show(const LocalMesh& local, const PlacedNode& placed, JsonView node, const std::string& name) {
         const std::optional<size_t> skin = node.index("skin");
         const size_t targets = local.source["targets"].size();
         const bool isSkinned = skin && hasJoints(local.source);
@@ -209,6 +211,7 @@ class MeshReader {
         Mesh mesh = local.mesh;
         applyMorphTargets(document_, local.source, local.vertices,
                           morphWeights(document_, placed.node, tree_.pose, targets), mesh);
+        limitVertices(mesh, name, notes_);
         if (!isSkinned)
             return placeInstances(mesh, placed, node);
         applySkin(document_, local.source, local.vertices, jointsOf(*skin), mesh);

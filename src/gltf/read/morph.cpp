@@ -47,7 +47,6 @@ class Morph {
     Delta (AccessorView::*at_)(size_t) const;
 };
 
-// Colours are clamped after morphing.
 void addColors(const GltfDocument& document, const std::vector<uint32_t>& vertices, JsonView target,
                double weight, std::vector<glm::vec4>& colors) {
     const std::optional<size_t> accessor = target.index("COLOR_0");
@@ -59,8 +58,6 @@ void addColors(const GltfDocument& document, const std::vector<uint32_t>& vertic
     else
         Morph<glm::vec4, glm::vec4>(document, vertices, &AccessorView::isVec4, &AccessorView::vec4At)
             .add(target, "COLOR_0", weight, colors);
-    for (glm::vec4& color : colors)
-        color = glm::clamp(color, glm::vec4(0.0f), glm::vec4(1.0f));
 }
 
 } // namespace

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "base/named.h"
 #include "gltf/read/transform.h"
 
 namespace lavalight {
@@ -56,7 +57,7 @@ void requireNoCycle(const GltfDocument& document, const std::vector<size_t>& par
 std::vector<size_t> findRoots(const GltfDocument& document, const std::vector<size_t>& parents) {
     const JsonView scenes = document.list("scenes");
     if (scenes.size() > 0) {
-        const size_t scene = JsonView(document.json).count("scene", 0);
+        const size_t scene = document.scene;
         std::vector<size_t> listed = numbersIn(scenes[scene]["nodes"]);
         for (const size_t node : listed) {
             if (parents[node] != kNoNode)
@@ -121,6 +122,14 @@ bool isHidden(JsonView node) {
 }
 
 } // namespace
+
+void chooseScene(GltfDocument& document, const std::string& wanted) {
+    for (const JsonView scene : document.list("scenes").elements())
+        document.scenes.push_back(printable(scene.text("name")));
+    document.scene = wanted.empty()
+                         ? JsonView(document.json).count("scene", 0)
+                         : findNamed(document.scenes, {wanted, "--scene", "scene", document.source});
+}
 
 NodeTree placeNodes(const GltfDocument& document, Pose pose) {
     const std::vector<size_t> parents = findParents(document);

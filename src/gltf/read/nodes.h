@@ -1,6 +1,7 @@
 // Walks the node hierarchy of a glTF scene.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -24,8 +25,12 @@ struct NodeTree {
     Pose pose;
 };
 
-// `shown` holds the nodes of the default scene (of scene 0 where none is named, of all root nodes where there
-// are no scenes). Throws Error unless the nodes form a forest: cycles, nodes with two parents.
+// Lists the document's scenes and picks the one of that name or number; without, its default, or the first.
+// Throws UsageError with the names that there are.
+void chooseScene(GltfDocument& document, const std::string& wanted);
+
+// `shown` holds the nodes of the document's chosen scene, or of all root nodes where there are no scenes.
+// Throws Error unless the nodes form a forest: cycles, nodes with two parents.
 [[nodiscard]] NodeTree placeNodes(const GltfDocument& document, Pose pose);
 
 } // namespace lavalight

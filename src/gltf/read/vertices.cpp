@@ -60,26 +60,18 @@ class VertexReader {
     const std::vector<uint32_t>& vertices_;
 };
 
-std::vector<std::vector<glm::vec2>> readUvs(const VertexReader& reader, const std::string& name,
-                                            GltfNotes& notes) {
+std::vector<std::vector<glm::vec2>> readUvs(const VertexReader& reader) {
     std::vector<std::vector<glm::vec2>> uvs;
     for (size_t set = 0; set < kMostUvSets; ++set) {
         std::vector<glm::vec2> values = reader.vec2s(fmt::format("TEXCOORD_{}", set));
         if (values.empty())
             continue;
-        for (glm::vec2& uv : values) {
-            if (std::isfinite(uv.x) && std::isfinite(uv.y))
-                continue;
-            uv = glm::vec2(0.0f);
-            notes.addObject("texture coordinates that are not finite were taken as 0", name);
-        }
         uvs.resize(set + 1);
         uvs.back() = std::move(values);
     }
     return uvs;
 }
 
-// Clamped, as the specification has it; false comparisons make NaN a 0.
 std::vector<glm::vec4> readColors(const VertexReader& reader) {
     std::vector<glm::vec4> colors;
     if (reader.isVec3("COLOR_0")) {
@@ -87,10 +79,6 @@ std::vector<glm::vec4> readColors(const VertexReader& reader) {
             colors.emplace_back(color, 1.0f);
     } else {
         colors = reader.vec4s("COLOR_0");
-    }
-    for (glm::vec4& color : colors) {
-        for (int channel = 0; channel < 4; ++channel)
-            color[channel] = color[channel] > 0.0f ? std::min(color[channel], 1.0f) : 0.0f;
     }
     return colors;
 }
@@ -111,16 +99,28 @@ size_t countVertices(const GltfDocument& document, JsonView primitive, const std
     return vertexCount;
 }
 
-Mesh readVertices(const GltfDocument& document, JsonView primitive, const std::vector<uint32_t>& vertices,
-                  const std::string& name, GltfNotes& notes) {
+Mesh readVertices(const GltfDocument& document, JsonView primitive, const std::vector<uint32_t>& vertices) {
     const VertexReader reader(document, primitive, vertices);
     Mesh mesh;
     mesh.positions = reader.vec3s("POSITION");
     mesh.normals = reader.vec3s("NORMAL");
-    mesh.uvs = readUvs(reader, name, notes);
+    mesh.uvs = readUvs(reader);
     mesh.colors = readColors(reader);
     mesh.tangents = reader.vec4s("TANGENT");
     return mesh;
+}
+
+void limitVertices(Mesh& mesh, const std::string& name, GltfNotes& notes) {
+    for (glm::vec4& color : mesh.colors) // a false comparison makes NaN a 0
+        for (int channel = 0; channel < 4; ++channel)
+            color[channel] = color[channel] > 0.0f ? std::min(color[channel], 1.0f) : 0.0f;
+    for (std::vector<glm::vec2>& set : mesh.uvs)
+        for (glm::vec2& uv : set) {
+            if (std::isfinite(uv.x) && std::isfinite(uv.y))
+                continue;
+            uv = glm::vec2(0.0f);
+            notes.addObject("texture coordinates that are not finite were taken as 0", name);
+        }
 }
 
 } // namespace lavalight

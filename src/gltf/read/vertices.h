@@ -14,11 +14,14 @@ namespace lavalight {
 // Requires POSITION.
 [[nodiscard]] size_t countVertices(const GltfDocument& document, JsonView primitive, const std::string& name);
 
-// The vertices of these numbers, which are below countVertices, as a mesh without triangles. Positions,
-// normals and tangents are as in the file; uvs are finite, colours from 0 to 1. `name` is the mesh's. Throws
-// Error for an attribute whose accessor is of another type than glTF asks for.
+// The vertices of these numbers, which are below countVertices, as a mesh without triangles, with all
+// attributes as in the file. Throws Error for an attribute whose accessor is of another type than glTF asks
+// for.
 [[nodiscard]] Mesh readVertices(const GltfDocument& document, JsonView primitive,
-                                const std::vector<uint32_t>& vertices, const std::string& name,
-                                GltfNotes& notes);
+                                const std::vector<uint32_t>& vertices);
+
+// Clamps colours to 0 .. 1 and makes texture coordinates finite: once, after all morph targets (glTF 2.0,
+// 3.7.2.2), since what one target takes too far the next may bring back. `name` is the mesh's.
+void limitVertices(Mesh& mesh, const std::string& name, GltfNotes& notes);
 
 } // namespace lavalight

@@ -14,6 +14,7 @@ namespace lavalight {
     camera.forward = glm::normalize(glm::vec3(0.0f, -down, -1.0f));
     camera.up = glm::normalize(glm::cross(camera.right, camera.forward));
     camera.aspect = 1.0f;
+    camera.framedAspect = 1.0f;
     return camera;
 }
 

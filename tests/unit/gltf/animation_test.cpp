@@ -212,6 +212,68 @@ TEST(GltfMorph, ColoursAreMovedAndClamped) {
     }
 }
 
+// glTF 2.0, 3.7.2.2: base + sum of weight * target, and colours are clamped once, after all of them: 0.5 +
+// 1 - 0.75 is 0.75, whatever of it leaves [0, 1] on the way, and so for bases and weights that do.
+TEST(GltfMorph, ColoursAreClampedAfterAllTargets) {
+    const auto morphed = [](float base, float first, float second, const Json& weights) {
+        GltfBuilder builder;
+        const auto grey = [&](float v) { return builder.addVec3(std::vector<glm::vec3>(3, glm::vec3(v))); };
+        const int positions = builder.addVec3({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+        const int colors = grey(base);
+        const int mesh =
+            builder.addMesh({{"attributes", {{"POSITION", positions}, {"COLOR_0", colors}}},
+                             {"targets", {{{"COLOR_0", grey(first)}}, {{"COLOR_0", grey(second)}}}}});
+        builder.addNode({{"mesh", mesh}, {"weights", weights}});
+        return builder.import().meshes.at(0).colors.at(1).x;
+    };
+    EXPECT_EQ(morphed(0.5f, 1.0f, -0.75f, {1, 1}), 0.75f);
+    EXPECT_EQ(morphed(0.5f, -1.0f, 0.75f, {1, 1}), 0.25f);
+    EXPECT_EQ(morphed(1.5f, -0.75f, 0.0f, {1, 0}), 0.75f); // the base, too
+    EXPECT_EQ(morphed(-0.5f, 0.75f, 0.0f, {1, 0}), 0.25f);
+    EXPECT_EQ(morphed(0.5f, 1.0f, 1.0f, {3, -2.75}), 0.75f); // weights that add up to other than 1
+    EXPECT_EQ(morphed(0.5f, 1.0f, 1.0f, {1, 1}), 1.0f);
+    EXPECT_EQ(morphed(1.5f, 1.0f, 1.0f, {0, 0}), 1.0f);
+}
+
+// Coordinates of a texture that repeats may leave [0, 1]; tangents get their length once, after all targets.
+TEST(GltfMorph, CoordinatesAndTangentsAreSumsOfAllTargets) {
+    GltfBuilder builder;
+    const int positions = builder.addVec3({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+    const int normals = builder.addVec3(std::vector<glm::vec3>(3, glm::vec3(0, 0, 1)));
+    const auto uvs = [&](glm::vec2 uv) {
+        return addFloats<glm::vec2>(builder, std::vector<glm::vec2>(3, uv), "VEC2");
+    };
+    const int tangents = addFloats<glm::vec4>(builder, std::vector<glm::vec4>(3, {1, 0, 0, -1}), "VEC4");
+    const int base = uvs({0.5f, 0.5f});
+    const int first = uvs({3.0f, -2.0f});
+    const int second = uvs({-1.0f, 1.0f});
+    const int aside = builder.addVec3(std::vector<glm::vec3>(3, glm::vec3(3, 4, 0)));
+    const int back = builder.addVec3(std::vector<glm::vec3>(3, glm::vec3(-1, 0, 0)));
+    const int mesh = builder.addMesh(
+        {{"attributes",
+          {{"POSITION", positions}, {"NORMAL", normals}, {"TANGENT", tangents}, {"TEXCOORD_0", base}}},
+         {"targets",
+          {{{"TEXCOORD_0", first}, {"TANGENT", aside}}, {{"TEXCOORD_0", second}, {"TANGENT", back}}}}});
+    builder.addNode({{"mesh", mesh}, {"weights", {1, 1}}});
+    const Mesh morphed = builder.import().meshes.at(0);
+    EXPECT_EQ(morphed.uvs.at(0).at(1), glm::vec2(2.5f, -0.5f));
+    expectNear(glm::vec3(morphed.tangents.at(1)), {0.6f, 0.8f, 0}); // (1, 0) + (3, 4) - (1, 0)
+    EXPECT_EQ(morphed.tangents.at(1).w, -1.0f);
+}
+
+TEST(GltfMorph, CoordinatesThatATargetMakesInfiniteAreTakenAsZeroWithAWarning) {
+    GltfBuilder builder;
+    const int positions = builder.addVec3({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+    const int base = addFloats<glm::vec2>(builder, std::vector<glm::vec2>(3, glm::vec2(1.0f)), "VEC2");
+    const int far = addFloats<glm::vec2>(builder, std::vector<glm::vec2>(3, glm::vec2(3e38f)), "VEC2");
+    const int mesh = builder.addMesh({{"attributes", {{"POSITION", positions}, {"TEXCOORD_0", base}}},
+                                      {"targets", {{{"TEXCOORD_0", far}}}}});
+    builder.addNode({{"mesh", mesh}, {"weights", {9}}});
+    const Scene scene = builder.import();
+    EXPECT_EQ(scene.meshes.at(0).uvs.at(0).at(0), glm::vec2(0.0f));
+    EXPECT_EQ(warningsWith(scene, "texture coordinates that are not finite"), 1);
+}
+
 TEST(GltfMorph, TargetsOfAnotherSizeOrTypeAreRefused) {
     GltfBuilder flat;
     const int corners = flat.addVec3({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});

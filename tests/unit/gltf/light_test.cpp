@@ -79,11 +79,22 @@ TEST(GltfLight, ScalesMoveALightButDoNotChangeIt) {
     EXPECT_EQ(light.intensity, glm::vec3(1.0f));
 }
 
-TEST(GltfLight, RangeDoesNotEndALight) {
-    const GltfBuilder builder = fileWith({{"type", "point"}, {"intensity", 3}, {"range", 0.001}});
-    const Scene scene = builder.import();
-    EXPECT_EQ(scene.punctualLights.at(0).intensity, glm::vec3(3.0f));
-    EXPECT_EQ(scene.warnings, std::vector<std::string>());
+TEST(GltfLight, RangeIsOfPointsAndSpots) {
+    EXPECT_EQ(importLight({{"type", "point"}, {"range", 0.25}}).range, 0.25f);
+    EXPECT_EQ(importLight({{"type", "spot"}, {"spot", Json::object()}, {"range", 7}}).range, 7.0f);
+    EXPECT_EQ(importLight({{"type", "directional"}, {"range", 7}}).range, kNoRange);
+    EXPECT_EQ(importLight({{"type", "point"}}).range, kNoRange);
+    EXPECT_EQ(importLight({{"type", "point"}, {"range", 1e300}}).range, kNoRange);
+    // Scales are not the light's (KHR_lights_punctual, "Light Types").
+    EXPECT_EQ(importLight({{"type", "point"}, {"range", 2}}, {{"scale", {3, 3, 3}}}).range, 2.0f);
+}
+
+TEST(GltfLight, RangesThatAreNotAboveZeroAreLeftOutWithAWarningThatNamesTheLight) {
+    for (const double range : {0.0, -1.0}) {
+        const Scene scene = fileWith({{"type", "point"}, {"name", "odd"}, {"range", range}}).import();
+        EXPECT_EQ(scene.punctualLights.at(0).range, kNoRange);
+        EXPECT_EQ(warningsWith(scene, "not above 0 were left out: light 0 \"odd\""), 1);
+    }
 }
 
 TEST(GltfLight, EachNodeOfTheShownSceneCarriesALightOfItsOwn) {
@@ -216,6 +227,7 @@ TEST(BrokenGltfLight, WrongTypesNameTheProperty) {
     expectErrorAfter((at + "/color").c_str(), "#ff3366", light + ".color is not an array");
     expectErrorAfter((at + "/color").c_str(), {1, 1, 1, 1}, light + ".color has 4 elements instead of 3");
     expectErrorAfter((at + "/intensity").c_str(), "BRIGHT", light + ".intensity is not a number");
+    expectErrorAfter((at + "/range").c_str(), "far", light + ".range is not a number");
     expectErrorAfter((at + "/spot").c_str(), 45.0, light + ".spot is not an object");
     expectErrorAfter((at + "/spot/innerConeAngle").c_str(), false,
                      light + ".spot.innerConeAngle is not a number");

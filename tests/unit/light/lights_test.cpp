@@ -75,6 +75,22 @@ TEST(LightPower, OfAPointLightIsItsIntensityOverAllDirections) {
     EXPECT_NEAR(powerOf(punctual(PunctualKind::point, {1.0f, 2.0f, 6.0f}), kBounds), 12.0 * pi, 1e-12);
 }
 
+// The mean of the window 1 - (d / range)^4 over the distances up to the scene's diameter of 6 m, by
+// midpoints.
+TEST(LightPower, OfALightWithARangeIsWhatOfItGetsAcrossTheScene) {
+    for (const float range : {0.01f, 1.0f, 6.0f, 9.0f, 1e6f}) {
+        PunctualLight light = punctual(PunctualKind::point, {1.0f, 2.0f, 6.0f});
+        const double endless = powerOf(light, kBounds);
+        light.range = range;
+        constexpr int kSteps = 100000;
+        double mean = 0.0;
+        for (int i = 0; i < kSteps; ++i)
+            mean += std::max(0.0, 1.0 - std::pow(6.0 * (i + 0.5) / kSteps / range, 4.0)) / kSteps;
+        EXPECT_NEAR(powerOf(light, kBounds), endless * mean, 1e-5 * endless) << range;
+        EXPECT_GT(powerOf(light, kBounds), 0.0);
+    }
+}
+
 TEST(LightPower, OfASpotLightIsItsIntensityIntegratedOverItsCone) {
     constexpr float kQuarterTurn = std::numbers::pi_v<float> / 2.0f;
     for (const PunctualLight& light : {spot(0.0f, 0.7853982f), spot(0.2f, 0.8f), spot(0.5f, 0.5f),

@@ -61,7 +61,7 @@ TEST(CameraRig, NeverTurnsOverThePoles) {
 TEST(CameraRig, PansAsFarAsTheMouseMoves) {
     CameraRig rig = makeRig();
     const glm::vec3 before = rig.pivot();
-    rig.pan({0.25f, 0.1f});
+    rig.pan({0.25f, 0.1f}, 1.0f);
     const glm::vec2 there = *project(rig.camera(), 1.0f, before);
     EXPECT_NEAR(there.x, 0.75f, kNear);
     EXPECT_NEAR(there.y, 0.6f, kNear);
@@ -106,7 +106,7 @@ TEST(CameraRig, AnOrthographicViewIsNarrowedInsteadOfMoved) {
     rig.dolly(0.5f);
     EXPECT_EQ(rig.camera().halfHeight, 1.0f);
     EXPECT_EQ(rig.camera().position, camera.position);
-    rig.pan({0.5f, 0.0f});
+    rig.pan({0.5f, 0.0f}, 1.0f);
     expectNear(rig.camera().position, {-1.0f, 0.0f, 5.0f});
 }
 
