@@ -56,7 +56,7 @@ class View : public testing::Test {
     }
     // Waits for the window to show those pixels; says how they differ if it does not.
     void expectShown(const Screenshot& wanted) const {
-        const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+        const auto deadline = std::chrono::steady_clock::now() + kPatience;
         Screenshot shown = desktop_.shoot(window_);
         while (shown != wanted && std::chrono::steady_clock::now() < deadline) {
             std::this_thread::sleep_for(std::chrono::milliseconds(50));
