@@ -1,4 +1,5 @@
 // Every option that a command declares is described by its help, and on record with the image that it made.
+#include <filesystem>
 #include <fstream>
 #include <map>
 #include <set>
@@ -144,14 +145,16 @@ TEST_F(Options, OfRenderAreOnRecordUnlessTheyAreListedHereWithTheReason) {
     std::set<std::string> recorded =
         recordedWith({"--spp", "1", "--look-from", "0,0,1", "--look-at", "0,0,0", "--up", "0,1,0", "--fov",
                       "40", "--aperture", "0.1", "--focus", "1"});
-    recorded.merge(recordedWith({"--spp", "1", "--panorama", "--env", "image.exr", "--env-rotation", "20"}));
+    std::filesystem::copy_file(folder_ / "image.exr", folder_ / "sky.exr");
+    recorded.merge(
+        recordedWith({"--spp", "1", "--panorama", "--no-clip", "--env", "sky.exr", "--env-rotation", "20"}));
     ASSERT_EQ(runLavalight({"new-experiment", "mine", "lib/sampling/roulette.glsl"}, folder_.path()).exitCode,
               0);
     std::ofstream(folder_ / "mine/lib/sampling/roulette.glsl", std::ios::app) << "// A change.\n";
     recorded.merge(recordedWith({"--spp", "1", "--shaders", "mine"}));
     writeFileAtomically(folder_ / "changing.glb", changingTriangle().glb());
-    recorded.merge(recordedWith(
-        {"changing.glb", "--spp", "1", "--at", "0.5", "--animation", "grow", "--variant", "night"}));
+    recorded.merge(recordedWith({"changing.glb", "--spp", "1", "--at", "0.5", "--animation", "grow",
+                                 "--variant", "night", "--scene", "0"}));
     for (const auto& [name, text] : helpOf({"render"}).options) {
         const size_t places = recorded.count(name) + elsewhere.count(name) + noMatterOfTheImage.count(name);
         EXPECT_EQ(places, 1u) << "--" << name << ": record it with the image (describe), or list it here";
