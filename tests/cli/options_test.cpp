@@ -102,7 +102,7 @@ TEST_F(Options, OfEveryCommandAreDescribedByItsHelp) {
     expectDescribed({});
 }
 
-// A triangle that grows, with a variant of its material.
+// A triangle that grows, with a variant of its material, in a scene with a name.
 GltfBuilder changingTriangle() {
     GltfBuilder builder;
     const int mesh = builder.addTriangle();
@@ -111,6 +111,7 @@ GltfBuilder changingTriangle() {
         {{"material", 1}, {"variants", {0}}}};
     builder.json["extensions"]["KHR_materials_variants"]["variants"] = {{{"name", "night"}}};
     builder.addNode({{"mesh", mesh}});
+    builder.json["scenes"] = Json::array({{{"name", "day"}, {"nodes", Json::array({0})}}});
     const int keys = builder.addVec3({{1, 1, 1}, {3, 3, 3}});
     const int times = builder.addIndices<float>({0, 1}, kFloat);
     builder.json["animations"] = {
@@ -154,7 +155,7 @@ TEST_F(Options, OfRenderAreOnRecordUnlessTheyAreListedHereWithTheReason) {
     recorded.merge(recordedWith({"--spp", "1", "--shaders", "mine"}));
     writeFileAtomically(folder_ / "changing.glb", changingTriangle().glb());
     recorded.merge(recordedWith({"changing.glb", "--spp", "1", "--at", "0.5", "--animation", "grow",
-                                 "--variant", "night", "--scene", "0"}));
+                                 "--variant", "night", "--scene", "day"}));
     for (const auto& [name, text] : helpOf({"render"}).options) {
         const size_t places = recorded.count(name) + elsewhere.count(name) + noMatterOfTheImage.count(name);
         EXPECT_EQ(places, 1u) << "--" << name << ": record it with the image (describe), or list it here";
