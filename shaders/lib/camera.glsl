@@ -1,4 +1,5 @@
 // Camera rays.
+#include "lib/math/constants.glsl"
 #include "lib/math/equirectangular.glsl"
 #include "lib/features.glsl"
 #include "lib/sampling/warp.glsl"
@@ -14,9 +15,9 @@ void moveOnLens(FrameParameters parameters, vec2 lens, inout vec3 origin, vec3 t
     direction = normalize(parameters.focusDistance * throughMiddle - onLens);
 }
 
-// Where a camera ray ends: on the far plane, if there is one (glTF 2.0, 3.10.3).
+// Where a camera ray ends: on the far plane, if there is one (glTF 2.0, 3.10.3). Panoramas have no planes.
 float cameraRayEnd(FrameParameters parameters, vec3 direction) {
-    return parameters.clipDepth > 0.0 ? parameters.clipDepth / dot(direction, parameters.cameraForward) : kInfinity;
+    return sceneHas(kFeaturePanorama) ? kInfinity : parameters.clipDepth / dot(direction, parameters.cameraForward);
 }
 
 // The ray starts on the near plane. `position` in pixels from the top left corner of the image; `lens`: random, for a point
@@ -35,7 +36,7 @@ Ray cameraRay(FrameParameters parameters, vec2 position, vec2 lens) {
         direction = equirectangularToDirection(uv);
     if (sceneHas(kFeatureLens))
         moveOnLens(parameters, lens, origin, parameters.cameraForward + onPlane, direction);
-    if (parameters.clipNear > 0.0)
+    if (!sceneHas(kFeaturePanorama)) // without a near plane this adds 0, which is cheaper than a branch on uniforms
         origin += direction * (parameters.clipNear / dot(direction, parameters.cameraForward));
     return Ray(origin, kNoSurface, direction, 0.0, 0u, InteriorList(0u, 0u, 0u));
 }

@@ -33,7 +33,7 @@ struct FrameParameters {
     float lensRadius;          // metres; 0: pinhole
     float focusDistance;       // metres along cameraForward to the plane that is sharp
     float clipNear;  // metres along cameraForward; what is nearer is not seen by camera rays
-    float clipDepth; // metres from there to where they end; 0: nowhere
+    float clipDepth; // metres from there to where they end; infinite: nowhere
     uint unused0;
 };
 

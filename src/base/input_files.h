@@ -17,7 +17,7 @@ class InputFiles {
     // `role` goes on with "it is": "the scene". A file that does not exist cannot be replaced and is left
     // out.
     void add(const std::filesystem::path& file, const std::string& role);
-    // Throws UsageError where `output`, or the folder entry that it links to, is one of the inputs.
+    // Throws UsageError where `output`, or the file that it links to, is one of the inputs.
     void requireApart(const std::filesystem::path& output) const;
 
   private:

@@ -35,8 +35,9 @@ Fingerprints fingerprintsOf(const Renderer& renderer) {
                        hashOf(f.environment, f.environmentLight, f.environmentRotation, f.environmentWidth,
                               f.environmentHeight, f.firstLightColumn, f.lightColumns));
     // cameraRight follows from the others and the image's size.
-    parts.emplace_back("view", hashOf(f.cameraPosition, f.projection, f.cameraUp, f.cameraForward,
-                                      f.lensRadius, f.focusDistance, f.sceneCenter, f.sceneRadius));
+    parts.emplace_back("view",
+                       hashOf(f.cameraPosition, f.projection, f.cameraUp, f.cameraForward, f.lensRadius,
+                              f.focusDistance, f.clipNear, f.clipDepth, f.sceneCenter, f.sceneRadius));
     parts.emplace_back("shaders", shadersOf(renderer));
     return parts;
 }

@@ -91,10 +91,10 @@ uint64_t trianglesBetween(const Scene& scene, const Camera& camera, const ViewEx
     uint64_t count = 0;
     for (const Mesh& mesh : scene.meshes)
         for (const glm::uvec3& t : mesh.triangles) {
-            const auto [least, most3] =
+            const auto [least, greatest] =
                 std::minmax({axes.forwardOf(mesh.positions[t.x]), axes.forwardOf(mesh.positions[t.y]),
                              axes.forwardOf(mesh.positions[t.z])});
-            if (most3 < nearest || least > farthest)
+            if (greatest < nearest || least > farthest)
                 continue;
             Polygon polygon;
             for (int corner = 0; corner < 3; ++corner)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 
 #include "scene/scene.h"
 #include "scene/view_extent.h"
@@ -11,7 +12,7 @@ namespace lavalight {
 // Where camera rays start and how far they reach, in metres along the direction of view.
 struct ClipRange {
     float nearest = 0.0f;
-    float depth = 0.0f; // 0: without end
+    float depth = std::numeric_limits<float>::infinity(); // without end
 };
 
 // The planes that have something to cut off in this view; the others are left out, since moving the start of

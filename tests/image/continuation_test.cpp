@@ -176,6 +176,14 @@ TEST_F(Continuation, FingerprintsAreThoseOfWhatChanged) {
     expectChange("environment", [](Scene& scene) { scene.environment.x = 0.5f; });
     expectChange("lights", [](Scene& scene) { scene.punctualLights.emplace_back(); });
     expectChange("view", [](Scene& scene) { scene.cameras.front().position.x += 0.001f; });
+    expectChange("view", [](Scene& scene) { scene.cameras.front().zfar = 1.0f; });
+    expectChange("view", [](Scene& scene) { scene.cameras.front().znear = 1.0f; });
+    const auto litTo = [&](float range) {
+        return partOf(
+            fingerprintsWith([&](Scene& scene) { scene.punctualLights.emplace_back().range = range; }),
+            "lights");
+    };
+    EXPECT_NE(litTo(kNoRange), litTo(3.0f));
     // A texel that differs is a texture that differs, and nothing else.
     const auto texturedWith = [&](uint8_t red) {
         return fingerprintsWith([&](Scene& scene) {
