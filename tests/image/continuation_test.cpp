@@ -177,7 +177,7 @@ TEST_F(Continuation, FingerprintsAreThoseOfWhatChanged) {
     expectChange("lights", [](Scene& scene) { scene.punctualLights.emplace_back(); });
     expectChange("view", [](Scene& scene) { scene.cameras.front().position.x += 0.001f; });
     expectChange("view", [](Scene& scene) { scene.cameras.front().zfar = 1.0f; });
-    expectChange("view", [](Scene& scene) { scene.cameras.front().znear = 1.0f; });
+    expectChange("view", [](Scene& scene) { scene.cameras.front().znear = 100.0f; });
     const auto litTo = [&](float range) {
         return partOf(
             fingerprintsWith([&](Scene& scene) { scene.punctualLights.emplace_back().range = range; }),
