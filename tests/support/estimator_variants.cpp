@@ -97,7 +97,7 @@ std::vector<Variant> singleVariants() {
         }
     for (Variant& variant : variants)
         if (!variant.settings.nextEventEstimation)
-            variant.effort = 2;
+            variant.effort = 4;
     return variants;
 }
 

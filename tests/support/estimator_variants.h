@@ -23,7 +23,7 @@ struct Variant {
 
 // Each setting with named values at each value that must not change the mean (by the table of settings), one
 // at a time, or with another that it needs; seed 1, so that images are independent of one at seed 0. Without
-// next-event estimation, the noisiest by far, effort 2.
+// next-event estimation, the noisiest by far, effort 4.
 [[nodiscard]] std::vector<Variant> singleVariants();
 
 // Every combination of those values that checkSettings() permits; seed 1.
