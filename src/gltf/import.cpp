@@ -27,8 +27,13 @@ void noteIgnored(const GltfDocument& document, GltfNotes& notes) {
         notes.add(fmt::format("the extension {} is not supported and was ignored", printable(extension)));
     for (size_t i = 0; i < document.textures.size(); ++i)
         if (!document.textures[i].image)
-            notes.add(fmt::format(
-                "texture {} has no image that can be read, its materials show their plain factors", i));
+            notes.add(fmt::format("texture {} {}, its materials show their plain factors", i,
+                                  document.textures[i].problem));
+    const JsonView accessors = document.list("accessors");
+    for (size_t i = 0; i < accessors.size(); ++i)
+        if (accessors[i].count("count", 0) == 0)
+            notes.addObject("accessors without elements were taken as if they were not there",
+                            describe("accessor", i, accessors[i].text("name")));
 }
 
 Bounds boundsOf(const std::vector<Mesh>& meshes) {

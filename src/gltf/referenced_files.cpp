@@ -26,7 +26,7 @@ class UriCollector : public nlohmann::json_sax<Json> {
         return true;
     }
     bool string(string_t& value) override {
-        if (isUri_ && !std::string_view(value).starts_with("data:"))
+        if (isUri_ && !isDataUri(value))
             uris_.push_back(value);
         return other();
     }

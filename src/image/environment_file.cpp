@@ -40,7 +40,7 @@ bool hasEnvironmentExtension(const std::filesystem::path& path) {
 
 EnvironmentFile readEnvironmentFile(const std::filesystem::path& path) {
     EnvironmentFile file;
-    file.image = isExr(path) ? readExrRadiance(path, kMostTexels) : readHdr(path, kMostTexels);
+    file.image = isExr(path) ? readExrEnvironment(path, kMostTexels) : readHdr(path, kMostTexels);
     for (glm::vec3& pixel : file.image.pixels) {
         const glm::bvec3 good(isGood(pixel.x), isGood(pixel.y), isGood(pixel.z));
         file.badTexels += glm::all(good) ? 0u : 1u;

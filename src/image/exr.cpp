@@ -27,6 +27,7 @@
 #include "base/log.h"
 #include "image/exr_header_check.h"
 #include "image/exr_layers.h"
+#include "image/exr_sphere.h"
 
 namespace lavalight {
 namespace {
@@ -228,13 +229,13 @@ void spreadGrey(Layer& layer) {
     layer.channels = colorLayer({}, std::nullopt).channels;
 }
 
-Image readRadiance(Imf::InputFile& file, uint64_t mostPixels) {
+Image readSphere(Imf::InputFile& file, uint64_t mostPixels) {
     Layer layer = colorLayerIn(channelsOf(file));
     PixelReader reader(file, mostPixels, sizeof(glm::vec3));
     reader.bindImage(layer.mean, layer.channels);
     reader.read();
     spreadGrey(layer);
-    return std::move(layer.mean);
+    return aroundSphere(std::move(layer.mean), file.header(), mostPixels);
 }
 
 ExrFile readLayers(Imf::InputFile& file) {
@@ -295,8 +296,8 @@ auto readWith(const std::filesystem::path& path, const Read& read) {
     requireRegularFile(path);
     useAllCores();
     try {
-        requireSaneHeader(path);
         requireSaneAttributes(path);
+        requireSaneHeader(path);
         Imf::InputFile file(path.c_str());
         return read(file);
     } catch (const std::bad_alloc&) {
@@ -336,10 +337,10 @@ ExrFile readExr(const std::filesystem::path& path) {
     });
 }
 
-Image readExrRadiance(const std::filesystem::path& path, uint64_t mostPixels) {
+Image readExrEnvironment(const std::filesystem::path& path, uint64_t mostPixels) {
     return readWith(path, [&](Imf::InputFile& file) {
         warnIfNotRec709(file.header(), path);
-        return readRadiance(file, mostPixels);
+        return readSphere(file, mostPixels);
     });
 }
 

@@ -50,8 +50,9 @@ struct ExrFile : Rendering {
 // a side or than memory, without colour.
 [[nodiscard]] ExrFile readExr(const std::filesystem::path& path);
 
-// Reads the radiance alone. Throws Error for more than `mostPixels` as well.
-[[nodiscard]] Image readExrRadiance(const std::filesystem::path& path, uint64_t mostPixels);
+// Reads the radiance alone, as an equirectangular map of all directions (image/exr_sphere.h). Throws Error
+// for more than `mostPixels` as well.
+[[nodiscard]] Image readExrEnvironment(const std::filesystem::path& path, uint64_t mostPixels);
 
 struct UintImage {
     uint32_t width = 0;

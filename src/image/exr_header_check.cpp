@@ -23,6 +23,9 @@ namespace {
 constexpr uint32_t kSeveralParts = 0x1000; // a flag of the version
 constexpr size_t kLongestName = 255;
 constexpr uint64_t kChannelBytes = 16; // bytes of a channel behind its name
+constexpr std::string_view kMagic{"\x76\x2f\x31\x01", 4};
+constexpr int kLastCompression = 9; // DWAB; OpenEXR's enumeration ends with it up to 3.3
+constexpr int kHtj2k = 11;          // 10 as well
 
 struct FixedType {
     std::string_view name;
@@ -72,7 +75,9 @@ class HeaderWalk {
         : file_(path, std::ios::binary), end_(std::filesystem::file_size(path)) {}
 
     void run() {
-        skip(4); // the magic number
+        for (const char c : kMagic)
+            if (byte() != c)
+                throw Error("it is not an OpenEXR file");
         const bool hasSeveral = (number() & kSeveralParts) != 0;
         bool isEmpty = header();
         while (hasSeveral && !isEmpty)
@@ -94,6 +99,8 @@ class HeaderWalk {
         const std::string type = word();
         const uint64_t size = number();
         const uint64_t start = at_;
+        if (type == "compression" && size == 1)
+            return requireKnownCompression(static_cast<uint8_t>(byte()));
         if (size > end_ - at_)
             throw Error(fmt::format("its attribute {} claims {} bytes, the file has {}", printable(name),
                                     size, end_));
@@ -101,6 +108,14 @@ class HeaderWalk {
         if (at_ != start + size)
             throw Error(fmt::format("its attribute {} of type {} has {} bytes, by its value {}",
                                     printable(name), printable(type), size, at_ - start));
+    }
+
+    static void requireKnownCompression(int method) {
+        if (method > kLastCompression)
+            throw Error(
+                fmt::format("its compression, number {}{}, is not supported; save it with ZIP, PIZ or "
+                            "another of OpenEXR 3.1",
+                            method, method <= kHtj2k ? " (HTJ2K)" : ""));
     }
 
     // Goes on to where the value ends by its type.

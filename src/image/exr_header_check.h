@@ -10,7 +10,7 @@ namespace lavalight {
 // The C++ reader allocates what an attribute claims, and for most types goes on where the value ends by its
 // type, not by the size that is stated: hidden from the C reader, which goes by the size, a claim of 2 GB may
 // follow. Throws Error, which does not name the file, unless sizes and types agree and all lies within the
-// file. The magic number must be there.
+// file, and for compressions that came after OpenEXR 3.1, by name.
 void requireSaneAttributes(const std::filesystem::path& path);
 
 } // namespace lavalight

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -82,29 +83,53 @@ Number parse(std::string_view text, const char* what) {
     return *value;
 }
 
+bool isBlank(char c) {
+    return c == ' ' || c == '\t';
+}
+
 std::string_view trimmed(std::string_view text) {
-    while (text.starts_with(' '))
+    while (!text.empty() && isBlank(text.front()))
         text.remove_prefix(1);
-    while (text.ends_with(' '))
+    while (!text.empty() && isBlank(text.back()))
         text.remove_suffix(1);
     return text;
 }
 
-// Lines of variables up to an empty one. Returns the product of all exposures, by which the scene's values
-// were multiplied.
-float readVariables(Reader& reader) {
+// Takes a number off the front of `text` as C's atof reads it, with blanks and a plus sign before it.
+double takeFactor(std::string_view& text, const char* what) {
+    text = trimmed(text);
+    if (text.starts_with('+') && !text.starts_with("+-"))
+        text.remove_prefix(1);
+    const std::optional<double> value = takeNumber<double>(text);
+    if (!value || !(text.empty() || isBlank(text.front())))
+        throw Error(fmt::format("its {} is not a number", what));
+    if (!(*value > 0.0) || !std::isfinite(*value))
+        throw Error(fmt::format("its {} is not above 0", what));
+    return *value;
+}
+
+// Lines of variables up to an empty one. Returns what the scene's values were multiplied by: the product of
+// all exposures and, by channel, of all colour corrections.
+glm::dvec3 readVariables(Reader& reader) {
     if (!reader.line().starts_with("#?"))
         throw Error("it is not a Radiance HDR file");
-    float exposure = 1.0f;
+    glm::dvec3 factors(1.0);
     for (std::string_view line = reader.line(); !line.empty(); line = reader.line()) {
-        if (line.starts_with("FORMAT=") && trimmed(line.substr(7)) != "32-bit_rle_rgbe")
+        const std::string_view name = line.substr(0, line.find('=') + 1);
+        std::string_view value = line.substr(name.size());
+        if (name == "FORMAT=" && trimmed(value) != "32-bit_rle_rgbe")
             throw Error("its pixels are not RGBE");
-        if (line.starts_with("EXPOSURE="))
-            exposure *= parse<float>(trimmed(line.substr(9)), "exposure");
+        if (name == "EXPOSURE=")
+            factors *= takeFactor(value, "exposure");
+        if (name == "COLORCORR=")
+            for (glm::length_t c = 0; c < 3; ++c)
+                factors[c] *= takeFactor(value, "colour correction");
     }
-    if (!(exposure > 0.0f) || !std::isfinite(exposure))
-        throw Error("its exposure is not above 0");
-    return exposure;
+    const glm::vec3 scale = 1.0f / glm::vec3(factors);
+    if (!glm::all(glm::lessThan(scale, glm::vec3(std::numeric_limits<float>::infinity()))) ||
+        !glm::all(glm::greaterThan(scale, glm::vec3(0.0f))))
+        throw Error("its exposure is out of range");
+    return factors;
 }
 
 // The line with the size: "-Y height +X width", or +Y for rows from the bottom.
@@ -156,10 +181,12 @@ void readPixels(Reader& reader, std::vector<Rgbe>& row) {
     }
 }
 
-glm::vec3 radianceOf(const Rgbe& pixel, float scale) {
+glm::vec3 radianceOf(const Rgbe& pixel, const glm::vec3& scale) {
     if (pixel[3] == 0)
         return glm::vec3(0.0f);
-    const float unit = std::ldexp(scale, pixel[3] - (128 + 8));
+    const int exponent = pixel[3] - (128 + 8);
+    const glm::vec3 unit(std::ldexp(scale.x, exponent), std::ldexp(scale.y, exponent),
+                         std::ldexp(scale.z, exponent));
     return unit * glm::vec3(pixel[0], pixel[1], pixel[2]);
 }
 
@@ -170,7 +197,7 @@ uint64_t fewestBytes(uint32_t width) {
 
 Image decode(std::string_view bytes, uint64_t mostPixels) {
     Reader reader(bytes);
-    const float exposure = readVariables(reader);
+    const glm::vec3 scale = 1.0f / glm::vec3(readVariables(reader));
     const Size size = readSize(reader);
     if (reader.left() / fewestBytes(size.width) < size.height)
         throw Error("it ends within its pixels");
@@ -185,7 +212,7 @@ Image decode(std::string_view bytes, uint64_t mostPixels) {
             readPixels(reader, row);
         const uint32_t top = size.isFromBottom ? size.height - 1 - y : y;
         for (uint32_t x = 0; x < size.width; ++x)
-            image.pixels[size_t{top} * size.width + x] = radianceOf(row[x], 1.0f / exposure);
+            image.pixels[size_t{top} * size.width + x] = radianceOf(row[x], scale);
     }
     return image;
 }

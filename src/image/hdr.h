@@ -10,9 +10,9 @@
 namespace lavalight {
 
 // Reads RGBE pixels, plain or run-length encoded in the old or the new way, rows from the top or from the
-// bottom; EXPOSURE is undone, so that values are those of the scene. Throws Error for whatever is no such
-// file: missing, damaged, incomplete, larger than kMaxImageSide a side, than `mostPixels` or than memory,
-// XYZE, or stored by columns. (stb's reader takes a file that ends early for one that ends in black.)
+// bottom; EXPOSURE and COLORCORR are undone, so that values are those of the scene. Throws Error for whatever
+// is no such file: missing, damaged, incomplete, larger than kMaxImageSide a side, than `mostPixels` or than
+// memory, XYZE, or stored by columns. (stb's reader takes a file that ends early for one that ends in black.)
 [[nodiscard]] Image readHdr(const std::filesystem::path& path, uint64_t mostPixels = kMaxImagePixels);
 
 } // namespace lavalight

@@ -53,12 +53,14 @@ std::optional<PngHeader> headerOfPng(std::string_view bytes) {
 }
 
 PictureSize measureWebp(std::string_view bytes) {
-    int width = 0;
-    int height = 0;
-    if (WebPGetInfo(reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size(), &width, &height) == 0)
+    WebPBitstreamFeatures features;
+    const auto* data = reinterpret_cast<const uint8_t*>(bytes.data());
+    if (WebPGetFeatures(data, bytes.size(), &features) != VP8_STATUS_OK)
         throw Error("it is a damaged WebP file");
-    requirePictureFits(width, height);
-    return {static_cast<uint32_t>(width), static_cast<uint32_t>(height), false};
+    if (features.has_animation != 0)
+        throw Error("it is an animated WebP file, and textures stand still; save one of its frames");
+    requirePictureFits(features.width, features.height);
+    return {static_cast<uint32_t>(features.width), static_cast<uint32_t>(features.height), false};
 }
 
 Picture decodeWebp(std::string_view bytes) {

@@ -1,4 +1,4 @@
-// The rules of gltf_schema_rules.h for materials, their extensions, textures and images.
+// The rules of schema_rules.h for materials, their extensions, textures and images.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-// The checks of glTF's JSON: a walk along the rules of gltf_schema_rules.h.
+// The checks of glTF's JSON: a walk along the rules of schema_rules.h.
 #include "gltf/check/schema.h"
 
 #include <cmath>
@@ -137,9 +137,6 @@ class SchemaCheck {
         case Kind::small:
             return require(checkInteger(value, where) <= std::numeric_limits<int>::max(), where,
                            "is too large");
-        case Kind::positive:
-            require(checkInteger(value, where) > 0, where, "is 0");
-            return;
         case Kind::index:
             return checkIndex(value, rule.target, where);
         case Kind::stride:

@@ -1,4 +1,4 @@
-// The table of gltf_schema_rules.h: all that Lavalight reads, and every reference between objects.
+// The table of schema_rules.h: all that Lavalight reads, and every reference between objects.
 #include "gltf/check/schema_rules.h"
 
 #include "gltf/check/material_rules.h"
@@ -43,14 +43,16 @@ void addLightRules(std::vector<ObjectRule>& rules) {
                      {index("light", "extensions.KHR_lights_punctual.lights", Need::required)}});
 }
 
+// Exporters write accessors and buffers of nothing, and meshes without primitives: empty_accessors.h
+// says what becomes of them.
 void addDataRules(std::vector<ObjectRule>& rules) {
-    rules.push_back({"buffers[]", {required("byteLength", Kind::positive), optional("uri", Kind::text)}});
+    rules.push_back({"buffers[]", {required("byteLength", Kind::count), optional("uri", Kind::text)}});
     rules.push_back({"bufferViews[]",
                      {index("buffer", "buffers", Need::required), optional("byteOffset", Kind::count),
                       required("byteLength", Kind::count), optional("byteStride", Kind::stride)}});
     rules.push_back({"accessors[]",
                      {index("bufferView", "bufferViews"), optional("byteOffset", Kind::count),
-                      required("componentType", Kind::componentType), required("count", Kind::positive),
+                      required("componentType", Kind::componentType), required("count", Kind::count),
                       required("type", Kind::elementType), optional("normalized", Kind::flag),
                       optional("name", Kind::text)}});
     rules.push_back({"accessors[].sparse",
@@ -63,11 +65,11 @@ void addDataRules(std::vector<ObjectRule>& rules) {
         {"accessors[].sparse.values",
          {index("bufferView", "bufferViews", Need::required), optional("byteOffset", Kind::small)}});
     rules.push_back({"meshes[]",
-                     {{"primitives", Kind::object, Need::required, kAnyLength},
+                     {{"primitives", Kind::object, Need::optional, kAnyLength},
                       optional("name", Kind::text),
                       numbers("weights", kAnyLength)}});
     rules.push_back({"meshes[].primitives[]",
-                     {required("attributes", Kind::object), index("indices", "accessors"),
+                     {optional("attributes", Kind::object), index("indices", "accessors"),
                       index("material", "materials"), optional("mode", Kind::mode)}});
     rules.push_back({"meshes[].primitives[].attributes", {index("*", "accessors")}});
     rules.push_back({"meshes[].primitives[].targets[]", {index("*", "accessors")}});

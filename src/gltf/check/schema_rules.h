@@ -15,7 +15,6 @@ enum class Kind {
     number,
     count,
     small, // a count that fits an int
-    positive,
     index,
     stride,        // a multiple of 4 from 4 to 252
     componentType, // 5120 to 5123, 5125 or 5126

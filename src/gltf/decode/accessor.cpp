@@ -175,6 +175,8 @@ AccessorView::AccessorView(const GltfDocument& document, size_t index) {
     const ElementLayout layout = layoutOf(type_, componentSize(componentType_));
     elementSize_ = layout.size;
     packedStride_ = layout.stride;
+    if (count_ == 0)
+        return;
     if (const std::optional<size_t> view = accessor.index("bufferView")) {
         stride_ = document.list("bufferViews")[*view].count("byteStride", packedStride_);
         if (stride_ < elementSize_)
@@ -198,7 +200,9 @@ void AccessorView::readSparse(const GltfDocument& document, JsonView sparse) {
     const JsonView values = sparse["values"];
     replacedCount_ = sparse.count("count", 0);
     replacedType_ = componentTypeOf(indices);
-    if (replacedCount_ == 0 || replacedCount_ > count_ || !isUnsigned(replacedType_))
+    if (replacedCount_ == 0)
+        return;
+    if (replacedCount_ > count_ || !isUnsigned(replacedType_))
         throw document.error(fmt::format("{} replaces {} of its {} elements, by indices of component type {}",
                                          name_, replacedCount_, count_,
                                          static_cast<uint64_t>(replacedType_)));

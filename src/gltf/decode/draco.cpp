@@ -137,10 +137,7 @@ class PrimitiveDecoder {
         primitive["mode"] = 4;
     }
 
-    // Empty accessors are no glTF: a stream without triangles is refused.
     size_t addAccessor(Json accessor, size_t count) {
-        if (count == 0)
-            fail("is damaged: its stream has no triangles");
         accessor["bufferView"] = view_;
         accessor["count"] = count;
         accessor.erase("sparse");
@@ -165,6 +162,8 @@ void decodeDraco(Json& json, std::vector<GltfBuffer>& buffers, const std::string
     uint64_t triangles = 0; // several primitives may name one stream
     Json& meshes = json["meshes"];
     for (size_t i = 0; i < meshes.size(); ++i) {
+        if (!meshes[i].contains("primitives"))
+            continue;
         for (Json& primitive : meshes[i]["primitives"]) {
             if (!primitive.contains("extensions") ||
                 !primitive["extensions"].contains("KHR_draco_mesh_compression"))

@@ -14,7 +14,8 @@ namespace {
 
 std::string loadBuffer(const nlohmann::json& buffer, std::string_view binary, const GltfSource& source) {
     const auto uri = buffer.find("uri");
-    if (uri != buffer.end())
+    const bool isEmpty = buffer.at("byteLength").get<uint64_t>() == 0;
+    if (uri != buffer.end() && !isEmpty)
         return loadUri(uri->get_ref<const std::string&>(), source);
     return std::string(binary);
 }
@@ -22,7 +23,7 @@ std::string loadBuffer(const nlohmann::json& buffer, std::string_view binary, co
 // What to call a buffer in a message: its file, but never a data URI of megabytes.
 std::string nameOf(const nlohmann::json& buffer) {
     const std::string uri = buffer.value("uri", std::string());
-    return uri.starts_with("data:") ? std::string() : uri;
+    return isDataUri(uri) ? std::string() : uri;
 }
 
 } // namespace

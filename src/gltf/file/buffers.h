@@ -17,7 +17,7 @@ struct GltfBuffer {
         bytes; // byteLength bytes, or none: a buffer may be declared without data, for extensions to use
 };
 
-// Each element of `json`'s "buffers": the BIN chunk, or what its uri means (gltf_uri.h). Throws Error.
+// Each element of `json`'s "buffers": the BIN chunk, or what its uri means (gltf/file/uri.h). Throws Error.
 [[nodiscard]] std::vector<GltfBuffer> loadBuffers(const nlohmann::json& json, std::string_view binary,
                                                   const GltfSource& source);
 

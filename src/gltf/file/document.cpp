@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/os/memory.h"
+#include "gltf/check/empty_accessors.h"
 #include "gltf/check/extensions.h"
 #include "gltf/check/schema.h"
 #include "gltf/decode/draco.h"
@@ -126,6 +127,7 @@ GltfDocument parseGltf(std::string_view bytes, const GltfSource& source) {
     document.buffers = loadBuffers(json, container.binary, source);
     decodeMeshopt(json, document.buffers, source.name);
     decodeDraco(json, document.buffers, source.name);
+    dropEmptyAccessors(json);
     document.textures = readTextures(json);
     document.images = loadImages(json, document.buffers, source);
     document.variants = readVariants(json);

@@ -30,8 +30,7 @@ GltfImage loadImage(const Json& json, size_t index, const std::vector<GltfBuffer
     const Json& image = json.at("images").at(index);
     const std::string uri = image.value("uri", std::string());
     GltfImage loaded;
-    loaded.name =
-        describe("image", index, uri.empty() || uri.starts_with("data:") ? image.value("name", "") : uri);
+    loaded.name = describe("image", index, uri.empty() || isDataUri(uri) ? image.value("name", "") : uri);
     try {
         if (image.contains("bufferView"))
             loaded.bytes = bytesOfView(json, image.at("bufferView").get<size_t>(), buffers, source.name);

@@ -18,7 +18,7 @@ struct GltfImage {
     std::string problem;
 };
 
-// Each element of `json`'s "images", by the rules of gltf_uri.h for what may be read.
+// Each element of `json`'s "images", by the rules of gltf/file/uri.h for what may be read.
 [[nodiscard]] std::vector<GltfImage>
 loadImages(const nlohmann::json& json, const std::vector<GltfBuffer>& buffers, const GltfSource& source);
 

@@ -17,7 +17,7 @@ float lastKey(const GltfDocument& document, JsonView animation) {
     float last = 0.0f;
     for (const JsonView sampler : animation["samplers"].elements()) {
         const AccessorView times(document, sampler.count("input", 0));
-        if (times.isScalar())
+        if (times.isScalar() && times.count() > 0)
             last = std::max(last, times.scalarAt(times.count() - 1));
     }
     return last;

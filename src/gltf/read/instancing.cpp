@@ -31,15 +31,21 @@ void readAttribute(const GltfDocument& document, JsonView node, const char* attr
 } // namespace
 
 size_t instanceCount(const GltfDocument& document, JsonView node) {
+    std::optional<size_t> count;
     for (const char* attribute : {"TRANSLATION", "ROTATION", "SCALE"}) {
-        if (const std::optional<size_t> accessor = accessorOf(node, attribute))
-            return document.list("accessors")[*accessor].count("count", 0);
+        const std::optional<size_t> accessor = accessorOf(node, attribute);
+        if (!accessor)
+            continue;
+        const size_t elements = document.list("accessors")[*accessor].count("count", 0);
+        count = elements == 0 ? 0 : count.value_or(elements);
     }
-    return 1;
+    return count.value_or(1);
 }
 
 InstanceReader::InstanceReader(const GltfDocument& document, JsonView node)
     : count_(instanceCount(document, node)) {
+    if (count_ == 0)
+        return;
     readAttribute(document, node, "TRANSLATION", translations_);
     readAttribute(document, node, "ROTATION", rotations_);
     readAttribute(document, node, "SCALE", scales_);

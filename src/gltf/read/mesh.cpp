@@ -123,6 +123,17 @@ void noteUnread(const GltfDocument& document, JsonView primitive, const std::str
         notes.addObject("the last triangle is incomplete and was left out", name);
 }
 
+// Coordinates that are not there are (0, 0).
+void noteMissingUvs(const Material& material, const Mesh& mesh, const std::string& name, GltfNotes& notes) {
+    for (const std::optional<Texture>& texture : material.textures) {
+        if (!texture || (texture->uvSet < mesh.uvs.size() && !mesh.uvs[texture->uvSet].empty()))
+            continue;
+        notes.addObject(fmt::format("textures without their coordinates, TEXCOORD_{}, show a single texel",
+                                    texture->uvSet),
+                        name);
+    }
+}
+
 // A primitive in its own space, with the numbers of its vertices in the file.
 struct LocalMesh {
     JsonView source;
@@ -141,8 +152,12 @@ LocalMesh readPrimitive(const GltfDocument& document, JsonView primitive, const 
         notes.addObject("a primitive without positions shows nothing", name);
         return local;
     }
-    const size_t vertexCount = countVertices(document, primitive, name);
     noteUnread(document, primitive, name, notes);
+    if (triangleCount(primitive, document) == 0) {
+        notes.addObject("a primitive without triangles shows nothing", name);
+        return local;
+    }
+    const size_t vertexCount = countVertices(document, primitive, name);
     std::vector<glm::uvec3> triangles = readTriangles(document, primitive, vertexCount);
     local.vertices = compactIndices(triangles);
     local.mesh = readVertices(document, primitive, local.vertices);
@@ -176,12 +191,15 @@ class MeshReader {
         const JsonView source = document_.list("meshes")[index];
         const std::string& ownName = source.text("name");
         const std::string name = describe("mesh", index, ownName);
+        if (source["primitives"].size() == 0)
+            notes_.addObject("a mesh without primitives shows nothing", name);
         for (const JsonView primitive : source["primitives"].elements()) {
             LocalMesh local = readPrimitive(document_, primitive, name, notes_);
             const std::optional<size_t> material = materialOf(primitive, document_.variant);
             local.mesh.material = static_cast<uint32_t>(material.value_or(materials_.size() - 1));
             if (local.mesh.triangles.empty())
                 continue;
+            noteMissingUvs(materials_[local.mesh.material], local.mesh, name, notes_);
             if (primitive["targets"].size() == 0)
                 limitVertices(local.mesh, name, notes_);
             for (const PlacedNode* placed : nodes) {

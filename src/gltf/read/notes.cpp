@@ -44,7 +44,7 @@ std::string describe(std::string_view kind, size_t index, std::string_view name)
 void GltfNotes::addObject(std::string_view finding, std::string_view object) {
     const auto [number, isNew] = numbers_.try_emplace(std::string(finding), groups_.size());
     if (isNew)
-        groups_.push_back({std::string(finding), {}});
+        groups_.emplace_back().finding = finding;
     auto& objects = groups_[number->second].objects;
     if (!object.empty() && (objects.empty() || objects.back() != object))
         objects.emplace_back(object);

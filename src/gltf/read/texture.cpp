@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 namespace lavalight {
@@ -20,20 +21,25 @@ Wrap wrapOf(int mode) {
     return mode == kClampToEdge ? Wrap::clamp : mode == kMirroredRepeat ? Wrap::mirror : Wrap::repeat;
 }
 
-// One that points past the images is as good as none.
-std::optional<size_t> existing(const Json& source, size_t imageCount) {
-    const auto image = source.get<size_t>();
-    return image < imageCount ? std::optional(image) : std::nullopt;
-}
-
-std::optional<size_t> imageOf(const Json& texture, size_t imageCount) {
+// Which image a texture names, whether there is one of that number or not.
+std::optional<size_t> sourceOf(const Json& texture) {
     const Json none = Json::object();
     const Json& extensions = texture.contains("extensions") ? texture.at("extensions") : none;
     if (extensions.contains("EXT_texture_webp") && extensions.at("EXT_texture_webp").contains("source"))
-        return existing(extensions.at("EXT_texture_webp").at("source"), imageCount);
+        return extensions.at("EXT_texture_webp").at("source").get<size_t>();
     if (texture.contains("source"))
-        return existing(texture.at("source"), imageCount);
+        return texture.at("source").get<size_t>();
     return std::nullopt;
+}
+
+void findImage(const Json& source, size_t imageCount, GltfTexture& texture) {
+    texture.image = sourceOf(source);
+    if (!texture.image) {
+        texture.problem = "has no image that can be read";
+    } else if (*texture.image >= imageCount) {
+        texture.problem = fmt::format("shows image {}, but the file has {}", *texture.image, imageCount);
+        texture.image.reset();
+    }
 }
 
 // KHR_texture_transform: scaled, then turned, then moved. The sense of the rotation is that of the
@@ -58,7 +64,7 @@ std::vector<GltfTexture> readTextures(const Json& json) {
     const size_t imageCount = json.contains("images") ? json.at("images").size() : 0;
     for (const Json& source : json.at("textures")) {
         GltfTexture& texture = textures.emplace_back();
-        texture.image = imageOf(source, imageCount);
+        findImage(source, imageCount, texture);
         if (!source.contains("sampler"))
             continue;
         const Json& sampler = json.at("samplers").at(source.at("sampler").get<size_t>());

@@ -16,7 +16,8 @@ namespace lavalight {
 // An element of "textures" with its sampler. How a picture is filtered where it is seen small is not read:
 // paths average it.
 struct GltfTexture {
-    std::optional<size_t> image; // none: the file gives no source that can be read
+    std::optional<size_t> image; // none: `problem` says why
+    std::string problem{};       // "has no image that can be read"
     Wrap wrapU = Wrap::repeat;
     Wrap wrapV = Wrap::repeat;
     bool isNearest = false;

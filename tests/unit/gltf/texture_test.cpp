@@ -175,7 +175,41 @@ TEST(GltfTexture, SourceOutOfRangeIsNoSource) {
     builder.json["textures"][0]["source"] = 7;
     const Scene scene = builder.import();
     EXPECT_FALSE(scene.materials.at(0).texture(TextureSlot::baseColor).has_value());
-    EXPECT_EQ(warningsWith(scene, "texture 0 has no image"), 1);
+    EXPECT_EQ(warningsWith(scene, "texture 0 shows image 7, but the file has 1, its materials show"), 1);
+    builder.json["textures"][0].erase("source");
+    EXPECT_EQ(warningsWith(builder.import(), "texture 0 has no image that can be read"), 1);
+}
+
+TEST(GltfTexture, AnimatedWebpIsToldForWhatItIs) {
+    const Scene scene = importGltf(std::string(LAVALIGHT_SOURCE_DIR) + "/tests/field/webp_anim.glb");
+    EXPECT_EQ(warningsWith(scene, "image 0 cannot be read"), 1);
+    EXPECT_EQ(warningsWith(scene, "it is an animated WebP file"), 1);
+    EXPECT_EQ(warningsWith(scene, "damaged"), 0);
+}
+
+TEST(GltfTexture, JpegOfTheFieldWithoutItsEndIsShown) {
+    const Scene scene = importGltf(std::string(LAVALIGHT_SOURCE_DIR) + "/tests/field/no_eoi.glb");
+    EXPECT_EQ(scene.pictures.size(), 1u);
+    EXPECT_EQ(warningsWith(scene, "cannot be read"), 0);
+}
+
+TEST(GltfTexture, MeshWithoutTheCoordinatesOfATextureIsNamedWithTheSetThatItLacks) {
+    GltfBuilder builder = textured({{"index", 0}}, {kPng});
+    EXPECT_EQ(warningsWith(builder.import(), "textures without their coordinates, TEXCOORD_0, show a single "
+                                             "texel: mesh 0 \"part\""),
+              1);
+    Json& attributes = builder.json["meshes"][0]["primitives"][0]["attributes"];
+    const int uvs = builder.addAccessor({{"bufferView", builder.addView<glm::vec2>({{0, 0}, {1, 0}, {0, 1}})},
+                                         {"componentType", kFloat},
+                                         {"count", 3},
+                                         {"type", "VEC2"}});
+    attributes["TEXCOORD_0"] = uvs;
+    EXPECT_EQ(warningsWith(builder.import(), "coordinates"), 0);
+    Json& info = builder.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"];
+    info["extensions"] = {{"KHR_texture_transform", {{"texCoord", 3}}}};
+    EXPECT_EQ(warningsWith(builder.import(), "TEXCOORD_3, show a single texel"), 1);
+    attributes["TEXCOORD_3"] = uvs;
+    EXPECT_EQ(warningsWith(builder.import(), "coordinates"), 0);
 }
 
 } // namespace

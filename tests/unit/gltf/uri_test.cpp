@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "gltf/file/uri.h"
 #include "support/temporary_folder.h"
 #include "unit/gltf/errors.h"
 
@@ -70,6 +71,85 @@ TEST_F(GltfFiles, DataUrisAreRead) {
                 "buffer 0 holds 36 bytes, its byteLength is 100");
 }
 
+// RFC 2397 and RFC 4648; schemes are written in either case (RFC 3986, section 3.1).
+TEST_F(GltfFiles, DataUrisAreReadHoweverTheyAreWritten) {
+    const std::string data = "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA";
+    const auto every = [&](size_t step, const std::string& between) {
+        std::string text;
+        for (size_t i = 0; i < data.size(); i += step)
+            text += data.substr(i, step) + between;
+        return text;
+    };
+    std::string encoded;
+    for (const char c : data)
+        encoded += c == 'A' ? "%41" : std::string(1, c);
+    std::string raw;
+    for (const char c : triangleBytes())
+        raw += c == 0 ? "%00" : c == '?' ? "%3f" : c == '\x80' ? "%80" : "";
+    for (const std::string& uri :
+         {"DATA:;base64," + data, "Data:application/octet-stream;BASE64," + data,
+          "data:application/octet-stream;charset=utf-8;Base64 ," + data, "data:;base64," + every(16, "\n"),
+          "data:;base64," + every(8, "\r\n\t "), "data:;base64," + every(12, "%0D%0A"),
+          "data:;base64," + encoded, "data:;base64," + data + "#fragment", "data:," + raw,
+          "data:application/octet-stream," + raw})
+        EXPECT_EQ(fileError(writeGltf("data.gltf", uri)), "") << uri;
+}
+
+TEST_F(GltfFiles, DigitsOfBase64MeanTheSameEncodedForUrlsAndWithoutPadding) {
+    for (const char* digits : {"+/8=", "-_8=", "%2B%2f8%3D", "+/8", "%2b%2F8", "+ /8%20="}) {
+        const std::string uri = std::string("data:;base64,") + digits;
+        EXPECT_EQ(loadUri(uri, {"test", std::nullopt, false}), "\xfb\xff") << digits;
+    }
+    EXPECT_EQ(loadUri("data:;base64,", {"test", std::nullopt, false}), "");
+}
+
+TEST_F(GltfFiles, DataUrisThatAreNoBase64SayWhy) {
+    const std::vector<std::pair<const char*, const char*>> bad = {
+        {"data:;base64,AAAA!AAA", "not base64: it has the byte 0x21"},
+        {"data:;base64,AA%FFAA", "not base64: it has the byte 0xFF"},
+        {"data:;base64,AA==AAAA", "goes on behind its padding"},
+        {"data:;base64,AAAAA", "cut off"},
+        {"data:;base64", "has no data"}};
+    for (const auto& [uri, text] : bad)
+        expectError(fileError(writeGltf("bad.gltf", uri)), "bad.gltf", text);
+}
+
+// RFC 3986, section 2.4: parts first, then their percent signs.
+TEST_F(GltfFiles, NamesAreDecodedAfterTheUriIsTakenApart) {
+    const std::vector<std::pair<const char*, const char*>> files = {
+        {"ns:base.bin", "ns%3Abase.bin"},
+        {"ns:low.bin", "ns%3alow.bin"},
+        {"C:x.bin", "C%3Ax.bin"},
+        {"a#b.bin", "a%23b.bin"},
+        {"what?.bin", "what%3F.bin"},
+        {"100%.bin", "100%25.bin"},
+        {"a%20b.bin", "a%2520b.bin"},
+        {"sub/d.bin", "sub%2Fd.bin"},
+        {"sub/e.bin", "sub%5ce.bin"},
+        {"sub/ns:f.bin", "sub/ns:f.bin"},
+        {"ns:g.bin", "./ns:g.bin"},
+        {"h.bin", "h.bin?version=2#top"},
+        {"\xC3\xBC.bin", "%c3%BC.bin"},
+        {"sub/i.bin", "sub/./../sub/i.bin"},
+        // Exporters that encode nothing.
+        {"a b#c.bin", "a b#c.bin"},
+        {"who?.bin", "who?.bin"},
+        {"50%.bin", "50%.bin"},
+        {"b%20c.bin", "b%20c.bin"},
+    };
+    for (const auto& [name, uri] : files) {
+        const auto file = write(name, triangleBytes());
+        EXPECT_EQ(fileError(writeGltf("names.gltf", uri)), "") << uri;
+        std::filesystem::remove(file);
+        expectError(fileError(writeGltf("names.gltf", uri)), "names.gltf", "no such file");
+    }
+    write("both", triangleBytes());
+    write("both?x", "short");
+    EXPECT_EQ(fileError(writeGltf("names.gltf", "both?x")), "");
+    write("ns:raw.bin", triangleBytes());
+    expectForbidden("ns:raw.bin", "write a colon of a file's name as %3A");
+}
+
 TEST_F(GltfFiles, ContentDecidesNotTheExtension) {
     const std::string bytes = goodFile().glb();
     EXPECT_EQ(importGltf(write("really.gltf", bytes)).triangleCount(), 1u);
@@ -127,8 +207,10 @@ TEST_F(GltfFiles, OtherAddressesAreNeverFollowed) {
     for (const std::string& uri :
          {"file://" + file, "FILE:" + file, std::string("http://host/x.bin"),
           std::string("https://host/x.bin"), std::string("//host/x.bin"), std::string("\\\\host\\x.bin"),
-          std::string("C:\\x.bin"), std::string("%66ile:") + file, "/" + file})
+          std::string("C:\\x.bin"), "/" + file, std::string("Data2:x"), std::string("s3+a.b-c:x.bin")})
         expectForbidden(uri, "no other addresses");
+    expectForbidden("%66ile:" + file, "no such file"); // a folder of that name
+    expectForbidden("%2F%2Fhost/x.bin", "");
     expectForbidden("/dev/zero", "");
     expectForbidden(std::string("x.bin\0", 6), "not a file name");
     expectForbidden("x.bin%00", "not a file name");

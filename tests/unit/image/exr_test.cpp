@@ -202,8 +202,8 @@ TEST(Exr, LayersComeBackByTheirNames) {
             EXPECT_EQ(same->variance->pixels, layer.variance->pixels) << layer.name;
         }
     }
-    EXPECT_EQ(readExrRadiance(folder / "image.exr", 15).pixels, rendering.radiance().pixels);
-    EXPECT_THROW((void)readExrRadiance(folder / "image.exr", 14), Error);
+    EXPECT_EQ(readExrEnvironment(folder / "image.exr", 15).pixels, rendering.radiance().pixels);
+    EXPECT_THROW((void)readExrEnvironment(folder / "image.exr", 14), Error);
 }
 
 TEST(Exr, LayersOfOtherProgramsAreThoseOfUpToThreeChannels) {

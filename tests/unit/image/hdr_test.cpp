@@ -49,6 +49,33 @@ TEST_F(HdrTest, ExposuresAreUndone) {
     EXPECT_EQ(image.at(0, 0), glm::vec3(2.0f, 1.0f, 0.0f));
 }
 
+// C's atof, which Radiance reads them with, takes blanks and a sign.
+TEST_F(HdrTest, ExposuresAreReadHoweverTheyAreWritten) {
+    for (const char* line : {"EXPOSURE=+2.0e+00", "EXPOSURE=\t2", "EXPOSURE= \t +2. ", "EXPOSURE=2\r",
+                             "EXPOSURE=2 1 1", "EXPOSURE=.5\nEXPOSURE=+4", "EXPOSURE=1e30\nEXPOSURE=2e-30"})
+        EXPECT_NEAR(read(kHead + line + "\n\n-Y 1 +X 1\n" + texel(16, 8, 4, 136)).at(0, 0).x, 8.0f, 1e-6f)
+            << line;
+    for (const char* value : {"", "+", "two", "+-2", "2,5", "2x", "-2", "nan", "inf", "1e999", "1e-60"})
+        expectRefusal(kHead + "EXPOSURE=" + value + "\n\n-Y 1 +X 1\n" + texel(1, 0, 0, 1), "exposure");
+}
+
+// Radiance's "filefmts": a multiplier as EXPOSURE is, for each of the primaries, and cumulative.
+TEST_F(HdrTest, ColourCorrectionsAreUndone) {
+    const std::string pixels = "\n\n-Y 1 +X 1\n" + texel(16, 8, 4, 136);
+    EXPECT_EQ(read(kHead + "COLORCORR= 2 1 .5" + pixels).at(0, 0), glm::vec3(8, 8, 8));
+    EXPECT_EQ(read(kHead + "COLORCORR=+2.0\t1 1\nEXPOSURE=4\nCOLORCORR=1 2e0 1" + pixels).at(0, 0),
+              glm::vec3(2, 1, 1));
+    for (const char* value : {"", "1", "1 2", "1 2 x", "1 0 1", "1 -1 1"})
+        expectRefusal(kHead + "COLORCORR=" + value + pixels, "colour correction");
+    const std::string field = std::string(LAVALIGHT_SOURCE_DIR) + "/tests/field/colorcorr.hdr";
+    const Image halved = readHdr(field); // its header says 2 1 1
+    std::string bytes = readFile(field);
+    bytes.replace(bytes.find("COLORCORR"), 4, "none");
+    const Image stored = read(bytes);
+    for (size_t i = 0; i < stored.pixels.size(); ++i)
+        EXPECT_EQ(halved.pixels[i], stored.pixels[i] * glm::vec3(0.5f, 1.0f, 1.0f));
+}
+
 TEST_F(HdrTest, RowsFromTheBottomAreTurned) {
     const Image image = read(kHead + "\n+Y 2 +X 1\n" + texel(1, 0, 0, 136) + texel(2, 0, 0, 136));
     EXPECT_EQ(image.at(0, 0).x, 2.0f);
