@@ -40,12 +40,17 @@ vec3 shadingNormal(TriangleRecord triangle, vec3 b, vec3 ng) {
     return length2 > 1e-12 ? n * inversesqrt(length2) : ng; // opposite corner normals cancel: keep the plane's
 }
 
-// The basis for normal maps, on the side of wo.
-void addTangentBasis(inout Interaction i) {
+// The basis that vectors of a texture are given in, on the side of wo. first: of the tangents that go by its coordinates.
+Basis textureBasis(Interaction i, uint first) {
     const float side = i.isFront ? 1.0 : -1.0;
-    const Basis basis = tangentBasis(i.id, i.b, side * i.n);
-    i.tangent = side * basis.tangent;
-    i.bitangent = side * basis.bitangent;
+    const Basis basis = tangentBasis(i.id, first, i.b, side * i.meshNormal);
+    return Basis(side * basis.tangent, side * basis.bitangent, i.meshNormal);
+}
+
+void setTangents(uint first, inout Interaction i) {
+    const Basis basis = textureBasis(i, first);
+    i.tangent = basis.tangent;
+    i.bitangent = basis.bitangent;
 }
 
 // The basis of the BSDF: z is the shading normal, x the direction of anisotropy, turned counter-clockwise by `rotation`.
@@ -93,6 +98,6 @@ Interaction makeInteraction(Hit hit, vec3 wo) {
     i.meshNormal = i.coatNormal = i.n;
     i.anisotropyDirection = vec2(1.0, 0.0);
     if (sceneHas(kFeatureTangents))
-        addTangentBasis(i);
+        setTangents(0u, i);
     return i;
 }

@@ -22,6 +22,8 @@ MaterialRecord fetchMaterial(uint index) {
     const uvec4 i = sceneHas(kFeatureAnisotropy) || sceneHas(kFeatureIridescence) ? materialTexel(index, 8u) : uvec4(0u);
     const uvec4 j =
         sceneHas(kFeatureIridescence) || sceneHas(kFeatureDiffuseTransmission) ? materialTexel(index, 9u) : uvec4(0u);
+    // Asked for apart: SPIRV-Tools crashes on conditions of three features.
+    const uvec2 planes = sceneHas(kFeatureTangentPlanes) ? materialTexel(index, 9u).zw : uvec2(0u);
     const uvec4 k = sceneHas(kFeatureDiffuseTransmission) ? materialTexel(index, 10u) : uvec4(0u);
     return MaterialRecord(
         uintBitsToFloat(a.xyz), uintBitsToFloat(a.w), uintBitsToFloat(b.xyz), uintBitsToFloat(b.w),
@@ -30,6 +32,6 @@ MaterialRecord fetchMaterial(uint index) {
         uintBitsToFloat(f.w), uintBitsToFloat(g.x), uintBitsToFloat(g.y), uintBitsToFloat(g.z),
         uintBitsToFloat(g.w), uintBitsToFloat(h.xyz), uintBitsToFloat(h.w), uintBitsToFloat(i.x),
         uintBitsToFloat(i.y), uintBitsToFloat(i.z), uintBitsToFloat(i.w), uintBitsToFloat(j.x),
-        uintBitsToFloat(j.y), float[2](uintBitsToFloat(j.z), uintBitsToFloat(j.w)), uintBitsToFloat(k.xyz),
+        uintBitsToFloat(j.y), planes.x, planes.y, uintBitsToFloat(k.xyz),
         uintBitsToFloat(k.w));
 }

@@ -47,16 +47,25 @@ void applyLayerTexel(uint slot, vec4 texel, inout MaterialRecord m) {
         m.diffuseTransmissionColor *= texel.rgb;
 }
 
+// The normal of the clear coat by the texel of its normal texture. wo: unit vector back along the ray.
+vec3 coatNormalBy(vec4 texel, vec3 wo, MaterialRecord m, Interaction i) {
+    Basis basis = Basis(i.tangent, i.bitangent, i.meshNormal);
+    if (sceneHas(kFeatureTangentPlanes))
+        basis = textureBasis(i, m.coatTangents);
+    return bentNormal(mappedNormal(basis, texel.xyz, m.clearcoatNormalScale), i.ng, wo);
+}
+
 // What changes the basis of shading. wo: unit vector back along the ray.
 void applyBasisTexel(uint slot, vec4 texel, vec3 wo, inout MaterialRecord m, inout Interaction i) {
-    const Basis basis = Basis(i.tangent, i.bitangent, i.meshNormal);
     if (slot == kSlotNormal)
-        i.n = bentNormal(mappedNormal(basis, texel.xyz, m.normalScale), i.ng, wo);
+        i.n = bentNormal(mappedNormal(Basis(i.tangent, i.bitangent, i.meshNormal), texel.xyz, m.normalScale), i.ng, wo);
     if (sceneHas(kFeatureClearcoat) && slot == kSlotClearcoatNormal)
-        i.coatNormal = bentNormal(mappedNormal(basis, texel.xyz, m.clearcoatNormalScale), i.ng, wo);
+        i.coatNormal = coatNormalBy(texel, wo, m, i);
     if (sceneHas(kFeatureAnisotropy) && slot == kSlotAnisotropy) {
         m.anisotropy *= texel.b;
         i.anisotropyDirection = 2.0 * texel.rg - 1.0;
+        if (sceneHas(kFeatureTangentPlanes)) // slots come in order: normal maps have had theirs
+            setTangents(m.anisotropyTangents, i);
     }
 }
 

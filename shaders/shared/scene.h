@@ -50,7 +50,8 @@ struct MaterialRecord {
     float iridescenceThicknessMinimum;
     float iridescenceThicknessMaximum; // after texturing: the thickness
     float diffuseTransmission;
-    float unused[2];
+    uint coatTangents;       // first of the tangents that the clearcoat's normal texture goes by; 0 for all but rare files
+    uint anisotropyTangents; // of those that the anisotropy texture goes by
     vec3 diffuseTransmissionColor;
     float unusedLast;
 };

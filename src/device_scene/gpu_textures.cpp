@@ -137,13 +137,27 @@ std::vector<TriangleColors> packColors(const Scene& scene) {
     return packed;
 }
 
-std::vector<TriangleTangents> packTangents(const Scene& scene) {
-    std::vector<TriangleTangents> packed;
-    packed.reserve(scene.triangleCount());
+uint32_t tangentPlanes(const Scene& scene) {
+    size_t further = 0;
     for (const Mesh& mesh : scene.meshes)
-        for (const glm::uvec3& t : mesh.triangles)
-            packed.push_back(mesh.tangents.empty() ? TriangleTangents{0, 0, 0, kNoTangents}
-                                                   : packTangents(mesh.tangents, t));
+        further = std::max(further, mesh.furtherTangents.size());
+    return 1 + static_cast<uint32_t>(further);
+}
+
+std::vector<TriangleTangents> packTangents(const Scene& scene) {
+    const uint32_t planes = tangentPlanes(scene);
+    requireTexels(scene.triangleCount() * planes, "the tangents", "use fewer triangles");
+    std::vector<TriangleTangents> packed;
+    packed.reserve(scene.triangleCount() * planes);
+    for (uint32_t plane = 0; plane < planes; ++plane)
+        for (const Mesh& mesh : scene.meshes) {
+            const bool isFurther = plane > 0 && plane <= mesh.furtherTangents.size();
+            const std::vector<glm::vec4>& tangents =
+                isFurther ? mesh.furtherTangents[plane - 1] : mesh.tangents;
+            for (const glm::uvec3& t : mesh.triangles)
+                packed.push_back(tangents.empty() ? TriangleTangents{0, 0, 0, kNoTangents}
+                                                  : packTangents(tangents, t));
+        }
     return packed;
 }
 

@@ -12,6 +12,7 @@
 #include "device_scene/octahedral.h"
 #include "device_scene/scene_features.h"
 #include "scene/coverage.h"
+#include "scene/tangents.h"
 
 namespace lavalight {
 namespace {
@@ -124,6 +125,17 @@ std::vector<MaterialRecord> packMaterials(const Scene& scene, std::span<const ui
     return packed;
 }
 
+// Says which plane of tangents the textures of each material go by, if there is more than one.
+void packTangentPlanes(const Scene& scene, std::vector<MaterialRecord>& packed) {
+    const uint32_t planes = tangentPlanes(scene);
+    const auto triangles = static_cast<uint32_t>(scene.triangleCount());
+    for (size_t i = 0; i < packed.size() && planes > 1; ++i) {
+        const TangentFrames wanted = tangentFrames(scene.materials[i]);
+        packed[i].coatTangents = wanted.coat < planes ? wanted.coat * triangles : 0u;
+        packed[i].anisotropyTangents = wanted.anisotropy < planes ? wanted.anisotropy * triangles : 0u;
+    }
+}
+
 void packSurfaceDetail(const Scene& scene, SceneData& data) {
     if ((data.features & kFeatureTextures) != 0) {
         data.textures = packTextures(scene);
@@ -167,6 +179,7 @@ SceneData packScene(const Scene& scene, const Lights& lights) {
     data.triangles = packTriangles(triangles, lights.emitters, materialWords(scene));
     data.normals = packNormals(scene);
     data.materials = packMaterials(scene, data.textures.firstRecords);
+    packTangentPlanes(scene, data.materials);
     data.lights = packLights(lights);
     data.punctuals = packPunctuals(scene, lights);
     data.lightTree = packLightTree(lights.tree, scene.bounds.radius());

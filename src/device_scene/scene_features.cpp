@@ -88,7 +88,8 @@ SceneFeatures featuresOf(const Material& material) {
 
 SceneFeatures featuresOf(const Mesh& mesh) {
     return (mesh.normals.empty() ? 0u : kFeatureShadingNormals) |
-           (mesh.colors.empty() ? 0u : kFeatureVertexColors);
+           (mesh.colors.empty() ? 0u : kFeatureVertexColors) |
+           (mesh.furtherTangents.empty() ? 0u : kFeatureTangentPlanes);
 }
 
 SceneFeatures featuresOfPunctuals(const Scene& scene, const Lights& lights) {

@@ -73,6 +73,8 @@ void selectVertices(Mesh& mesh, const std::vector<uint32_t>& order) {
         select(set, order);
     select(mesh.colors, order);
     select(mesh.tangents, order);
+    for (std::vector<glm::vec4>& tangents : mesh.furtherTangents)
+        select(tangents, order);
 }
 
 } // namespace lavalight

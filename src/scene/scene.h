@@ -113,6 +113,10 @@ struct Mesh {
     std::vector<glm::vec4> colors{};           // linear, multiply base colour and alpha; empty: none
     // Unit length, xyz towards growing u; w: 1 or -1, bitangent = w * cross(normal, tangent). Empty: none.
     std::vector<glm::vec4> tangents{};
+    // Tangents for textures of its material whose coordinates go other ways: one list for each of
+    // tangentFrames() (scene/tangents.h) after the first, empty where the mesh lacks the coordinates. None:
+    // those above serve all.
+    std::vector<std::vector<glm::vec4>> furtherTangents{};
 };
 
 // A panorama shows all directions, by the convention of environment maps.

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "scene/mesh_vertices.h"
@@ -144,17 +146,61 @@ std::vector<Sums> sumTangents(const Mesh& mesh, const std::vector<UvFrame>& fram
     return sums;
 }
 
+bool hasCoordinates(const Mesh& mesh, const TangentFrame& frame) {
+    return frame.uvSet < mesh.uvs.size() && !mesh.uvs[frame.uvSet].empty();
+}
+
+std::vector<glm::vec2> coordinatesOf(const Mesh& mesh, const TangentFrame& frame) {
+    std::vector<glm::vec2> uvs = mesh.uvs[frame.uvSet];
+    for (glm::vec2& uv : uvs)
+        uv = {glm::dot(frame.uRow, uv), glm::dot(frame.vRow, uv)};
+    return uvs;
+}
+
+// Tangents of a mesh with normals; may give it further vertices.
+std::vector<glm::vec4> tangentsAlong(Mesh& mesh, const TangentFrame& frame) {
+    std::vector<glm::vec2> uvs = coordinatesOf(mesh, frame);
+    std::vector<UvFrame> frames;
+    frames.reserve(mesh.triangles.size());
+    for (const glm::uvec3& triangle : mesh.triangles)
+        frames.push_back(uvFrame(mesh, triangle, uvs));
+    const std::vector<bool> isMirrored = splitMirrored(mesh, frames);
+    uvs = coordinatesOf(mesh, frame);
+    const std::vector<uint32_t> welded = weld(mesh, uvs);
+    const std::vector<Sums> sums = sumTangents(mesh, frames, welded);
+    std::vector<glm::vec4> tangents(mesh.positions.size());
+    for (size_t i = 0; i < tangents.size(); ++i) {
+        const glm::vec3& normal = mesh.normals[i];
+        const glm::vec3 mean = alongSurface(sums[welded[i]][isMirrored[i]], normal);
+        const glm::vec3 tangent = mean == glm::vec3(0.0f) ? anyTangent(normal) : mean;
+        tangents[i] = glm::vec4(tangent, isMirrored[i] ? -1.0f : 1.0f);
+    }
+    return tangents;
+}
+
 } // namespace
 
-std::optional<uint32_t> tangentUvSet(const Material& material) {
-    for (const TextureSlot slot : {TextureSlot::normal, TextureSlot::clearcoatNormal}) {
-        if (material.texture(slot))
-            return material.texture(slot)->uvSet;
-    }
+TangentFrames tangentFrames(const Material& material) {
+    TangentFrames wanted;
+    const auto indexOf = [&](const TangentFrame& frame) {
+        const auto known = std::find(wanted.frames.begin(), wanted.frames.end(), frame);
+        const auto index = static_cast<uint32_t>(known - wanted.frames.begin());
+        if (known == wanted.frames.end())
+            wanted.frames.push_back(frame);
+        return index;
+    };
+    const auto indexOfSlot = [&](TextureSlot slot) {
+        const std::optional<Texture>& texture = material.texture(slot);
+        return texture ? indexOf({texture->uvSet, texture->uRow, texture->vRow}) : 0;
+    };
+    (void)indexOfSlot(TextureSlot::normal);
+    wanted.coat = indexOfSlot(TextureSlot::clearcoatNormal);
     if (material.anisotropy == 0.0f)
-        return std::nullopt;
-    const std::optional<Texture>& texture = material.texture(TextureSlot::anisotropy);
-    return texture ? texture->uvSet : 0;
+        return wanted;
+    wanted.anisotropy = indexOfSlot(TextureSlot::anisotropy);
+    if (wanted.frames.empty())
+        wanted.frames.emplace_back();
+    return wanted;
 }
 
 glm::vec3 anyTangent(const glm::vec3& normal) {
@@ -162,25 +208,22 @@ glm::vec3 anyTangent(const glm::vec3& normal) {
     return glm::normalize(axis - normal * glm::dot(normal, axis));
 }
 
-void generateTangents(Mesh& mesh, uint32_t uvSet) {
-    if (uvSet >= mesh.uvs.size() || mesh.uvs[uvSet].empty() || mesh.triangles.empty())
+void generateTangents(Mesh& mesh, std::span<const TangentFrame> frames) {
+    const bool hasAny = std::any_of(frames.begin(), frames.end(),
+                                    [&](const TangentFrame& frame) { return hasCoordinates(mesh, frame); });
+    if (mesh.triangles.empty() || !hasAny)
         return;
     const bool isFlat = mesh.normals.empty();
     if (isFlat)
         makeFlat(mesh);
-    std::vector<UvFrame> frames;
-    frames.reserve(mesh.triangles.size());
-    for (const glm::uvec3& triangle : mesh.triangles)
-        frames.push_back(uvFrame(mesh, triangle, mesh.uvs[uvSet]));
-    const std::vector<bool> isMirrored = splitMirrored(mesh, frames);
-    const std::vector<uint32_t> welded = weld(mesh, mesh.uvs[uvSet]);
-    const std::vector<Sums> sums = sumTangents(mesh, frames, welded);
-    mesh.tangents.resize(mesh.positions.size());
-    for (size_t i = 0; i < mesh.tangents.size(); ++i) {
-        const glm::vec3& normal = mesh.normals[i];
-        const glm::vec3 mean = alongSurface(sums[welded[i]][isMirrored[i]], normal);
-        const glm::vec3 tangent = mean == glm::vec3(0.0f) ? anyTangent(normal) : mean;
-        mesh.tangents[i] = glm::vec4(tangent, isMirrored[i] ? -1.0f : 1.0f);
+    for (size_t i = 0; i < frames.size(); ++i) {
+        std::vector<glm::vec4> tangents;
+        if (hasCoordinates(mesh, frames[i]))
+            tangents = tangentsAlong(mesh, frames[i]);
+        if (i == 0)
+            mesh.tangents = std::move(tangents);
+        else
+            mesh.furtherTangents.push_back(std::move(tangents));
     }
     if (isFlat)
         mesh.normals.clear();

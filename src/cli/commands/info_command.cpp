@@ -43,6 +43,8 @@ uint64_t geometryBytes(const Scene& scene) {
                  bytesOf(mesh.colors) + bytesOf(mesh.tangents);
         for (const std::vector<glm::vec2>& set : mesh.uvs)
             bytes += bytesOf(set);
+        for (const std::vector<glm::vec4>& tangents : mesh.furtherTangents)
+            bytes += bytesOf(tangents);
     }
     return bytes;
 }

@@ -57,11 +57,14 @@ double usedVertices(const GltfDocument& document, JsonView primitive) {
     return std::min(3.0 * triangles, static_cast<double>(vertices));
 }
 
-Extent extentOf(const GltfDocument& document, JsonView primitive) {
+Extent extentOf(const GltfDocument& document, JsonView primitive, const std::vector<Material>& materials) {
     const auto triangles = static_cast<double>(triangleCount(primitive, document));
     if (triangles == 0.0)
         return {};
-    size_t vertexBytes = sizeof(glm::vec3) + sizeof(glm::vec4); // a position, and a tangent that is generated
+    const Material& material =
+        materials[materialOf(primitive, document.variant).value_or(materials.size() - 1)];
+    const size_t frames = std::max<size_t>(tangentFrames(material).frames.size(), 1); // or the file's own
+    size_t vertexBytes = sizeof(glm::vec3) + frames * sizeof(glm::vec4);
     for (const auto& [attribute, accessor] : primitive["attributes"].members()) {
         vertexBytes += attribute == "NORMAL" ? sizeof(glm::vec3) : 0;
         vertexBytes += attribute == "COLOR_0" ? sizeof(glm::vec4) : 0;
@@ -74,12 +77,13 @@ Extent extentOf(const GltfDocument& document, JsonView primitive) {
 }
 
 // Instances multiply: a small file may ask for more than any memory holds.
-void requireFitting(const GltfDocument& document, const MeshInstances& instances) {
+void requireFitting(const GltfDocument& document, const MeshInstances& instances,
+                    const std::vector<Material>& materials) {
     Extent total;
     for (size_t i = 0; i < instances.size(); ++i) {
         Extent ofMesh;
         for (const JsonView primitive : document.list("meshes")[i]["primitives"].elements())
-            ofMesh += extentOf(document, primitive);
+            ofMesh += extentOf(document, primitive, materials);
         for (const PlacedNode* placed : instances[i]) {
             const JsonView node = document.list("nodes")[placed->node];
             total += ofMesh.times(static_cast<double>(instanceCount(document, node)));
@@ -253,9 +257,8 @@ class MeshReader {
 
     // Takes a mesh in world space, with tangents where its material wants them.
     void keep(Mesh mesh) {
-        const std::optional<uint32_t> uvSet = tangentUvSet(materials_[mesh.material]);
-        if (mesh.tangents.empty() && uvSet)
-            generateTangents(mesh, *uvSet);
+        if (mesh.tangents.empty())
+            generateTangents(mesh, tangentFrames(materials_[mesh.material]).frames);
         if (!mesh.triangles.empty())
             meshes_.push_back(std::move(mesh));
     }
@@ -274,7 +277,7 @@ class MeshReader {
 std::vector<Mesh> readMeshes(const GltfDocument& document, const NodeTree& tree,
                              const std::vector<Material>& materials, GltfNotes& notes) {
     const MeshInstances instances = groupByMesh(document, tree.shown);
-    requireFitting(document, instances);
+    requireFitting(document, instances, materials);
     requireFewMorphs(document, instances, tree.pose);
     MeshReader reader(document, tree, materials, notes);
     for (size_t i = 0; i < instances.size(); ++i) {

@@ -142,5 +142,40 @@ TEST(GltfVertices, VerticesLeaveWithAllTheirAttributes) {
     EXPECT_EQ(mesh.tangents.size(), 3u);
 }
 
+// Textures of different transforms: of their own coordinates where tangents are generated, of the file's
+// else.
+TEST(GltfVertices, TangentsAreTheFilesOrThoseOfEachTexturesCoordinates) {
+    GltfBuilder builder;
+    builder.addNode({{"mesh", builder.addTriangle()}});
+    Json& primitive = builder.json["meshes"][0]["primitives"][0];
+    primitive["material"] = 0;
+    primitive["attributes"]["NORMAL"] = addUp(builder);
+    primitive["attributes"]["TEXCOORD_0"] =
+        addElements<glm::vec2>(builder, {{0, 1}, {1, 1}, {0, 0}}, "VEC2", {{"componentType", kFloat}});
+    // 1 x 1 texel.
+    builder.json["images"] = {
+        {{"uri", "data:image/png;base64,"
+                 "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mNk+M9QDwADhgGA"
+                 "WjR9awAAAABJRU5ErkJggg=="}}};
+    builder.json["textures"] = {{{"source", 0}}};
+    const Json turned = {{"index", 0},
+                         {"extensions", {{"KHR_texture_transform", {{"rotation", std::acos(-1.0) / 2.0}}}}}};
+    builder.json["materials"] = {
+        {{"normalTexture", {{"index", 0}}},
+         {"extensions",
+          {{"KHR_materials_clearcoat", {{"clearcoatFactor", 1}, {"clearcoatNormalTexture", turned}}}}}}};
+    const Mesh generated = builder.import().meshes.at(0);
+    ASSERT_EQ(generated.tangents.size(), 3u);
+    ASSERT_EQ(generated.furtherTangents.size(), 1u);
+    EXPECT_NEAR(glm::length(generated.tangents[0] - glm::vec4(1, 0, 0, 1)), 0.0f, 1e-6f);
+    // u' = v, which grows downwards.
+    EXPECT_NEAR(glm::length(generated.furtherTangents[0][0] - glm::vec4(0, -1, 0, 1)), 0.0f, 1e-6f);
+    builder.json["meshes"][0]["primitives"][0]["attributes"]["TANGENT"] = addElements<glm::vec4>(
+        builder, std::vector<glm::vec4>(3, {0, 1, 0, -1}), "VEC4", {{"componentType", kFloat}});
+    const Mesh given = builder.import().meshes.at(0);
+    EXPECT_EQ(given.tangents, std::vector<glm::vec4>(3, {0, 1, 0, -1}));
+    EXPECT_TRUE(given.furtherTangents.empty());
+}
+
 } // namespace
 } // namespace lavalight::test

@@ -12,6 +12,8 @@
 namespace lavalight::test {
 namespace {
 
+const std::vector kPlain{TangentFrame{}};
+
 // Two triangles of the unit square, facing +z, with one picture mirrored at the diagonal x = y if asked.
 //   3---2
 //   | / |
@@ -27,7 +29,7 @@ Mesh square(bool isMirrored) {
 
 TEST(Tangents, UprightPictureHasItsBitangentUp) {
     Mesh mesh = square(false);
-    generateTangents(mesh, 0);
+    generateTangents(mesh, kPlain);
     ASSERT_EQ(mesh.tangents.size(), 4u);
     for (const glm::vec4& tangent : mesh.tangents)
         EXPECT_EQ(tangent, glm::vec4(1, 0, 0, 1)); // cross(z, x) is y
@@ -35,7 +37,7 @@ TEST(Tangents, UprightPictureHasItsBitangentUp) {
 
 TEST(Tangents, VerticesOfMirroredAndPlainTrianglesBecomeTwo) {
     Mesh mesh = square(true);
-    generateTangents(mesh, 0);
+    generateTangents(mesh, kPlain);
     EXPECT_EQ(mesh.positions.size(), 6u);
     EXPECT_EQ(mesh.uvs.at(0).size(), 6u);
     for (int corner = 0; corner < 3; ++corner) {
@@ -52,7 +54,7 @@ TEST(Tangents, VerticesAtOnePlaceShareTheirTangentWhateverTheirNumbers) {
     mesh.normals.assign(6, up);
     mesh.triangles = {{0, 2, 1}, {3, 5, 4}};
     mesh.uvs = {{{0, 0}, {1, 0}, {1, 1}, {1, 0}, {2, 0}, {1, 1}}};
-    generateTangents(mesh, 0);
+    generateTangents(mesh, kPlain);
     EXPECT_EQ(mesh.tangents.at(1), mesh.tangents.at(3));
     EXPECT_EQ(mesh.tangents.at(1).y, 0.0f); // along the surface that the normal means
 }
@@ -61,7 +63,7 @@ TEST(Tangents, FlatMeshStaysFlatAndHasTangentsOnItsTriangles) {
     Mesh mesh = square(false);
     mesh.positions[3].z = 1.0f;
     mesh.normals.clear();
-    generateTangents(mesh, 0);
+    generateTangents(mesh, kPlain);
     EXPECT_TRUE(mesh.normals.empty());
     ASSERT_EQ(mesh.tangents.size(), 6u);
     for (const glm::uvec3& t : mesh.triangles) {
@@ -74,25 +76,113 @@ TEST(Tangents, FlatMeshStaysFlatAndHasTangentsOnItsTriangles) {
 TEST(Tangents, WithoutUvAreaTheyAreUnitVectorsAlongTheSurfaceAndWithoutUvsThereAreNone) {
     Mesh mesh = square(false);
     mesh.uvs[0].assign(4, glm::vec2(0.5f));
-    generateTangents(mesh, 0);
+    generateTangents(mesh, kPlain);
     for (const glm::vec4& tangent : mesh.tangents) {
         EXPECT_NEAR(glm::length(glm::vec3(tangent)), 1.0f, 1e-6f);
         EXPECT_EQ(tangent.z, 0.0f);
     }
     Mesh bare = square(false);
-    generateTangents(bare, 1);
+    generateTangents(bare, std::vector{TangentFrame{.uvSet = 1}});
     EXPECT_TRUE(bare.tangents.empty());
+}
+
+void setTexture(Material& material, TextureSlot slot, const Texture& texture) {
+    material.textures[static_cast<size_t>(slot)] = texture;
 }
 
 TEST(Tangents, MaterialsWantThemForNormalTexturesAndAnisotropy) {
     Material material;
-    EXPECT_EQ(tangentUvSet(material), std::nullopt);
+    EXPECT_TRUE(tangentFrames(material).frames.empty());
     material.anisotropy = 0.5f;
-    EXPECT_EQ(tangentUvSet(material), 0u);
-    material.textures[static_cast<size_t>(TextureSlot::anisotropy)] = Texture{.uvSet = 2};
-    EXPECT_EQ(tangentUvSet(material), 2u);
-    material.textures[static_cast<size_t>(TextureSlot::normal)] = Texture{.uvSet = 1};
-    EXPECT_EQ(tangentUvSet(material), 1u);
+    EXPECT_EQ(tangentFrames(material).frames, kPlain);
+    setTexture(material, TextureSlot::anisotropy, Texture{.uvSet = 2});
+    EXPECT_EQ(tangentFrames(material).frames, std::vector{TangentFrame{.uvSet = 2}});
+    EXPECT_EQ(tangentFrames(material).anisotropy, 0u);
+    setTexture(material, TextureSlot::normal, Texture{.uvSet = 1});
+    EXPECT_EQ(tangentFrames(material).frames,
+              (std::vector{TangentFrame{.uvSet = 1}, TangentFrame{.uvSet = 2}}));
+    EXPECT_EQ(tangentFrames(material).anisotropy, 1u);
+}
+
+TEST(Tangents, FramesAreThoseOfTheTexturesCoordinatesAndEachIsThereOnce) {
+    Material material;
+    material.anisotropy = 0.5f;
+    // A quarter turn, moved.
+    const Texture turned{.uvSet = 1, .uRow = {0, 1, 0.3f}, .vRow = {-1, 0, 0.4f}};
+    const TangentFrame quarter{.uvSet = 1, .uRow = {0, 1}, .vRow = {-1, 0}};
+    setTexture(material, TextureSlot::clearcoatNormal, turned);
+    EXPECT_EQ(tangentFrames(material).frames, std::vector{quarter}); // anisotropy without a texture follows
+    setTexture(material, TextureSlot::normal, Texture{});
+    setTexture(material, TextureSlot::anisotropy, turned);
+    const TangentFrames wanted = tangentFrames(material);
+    EXPECT_EQ(wanted.frames, (std::vector{TangentFrame{}, quarter}));
+    EXPECT_EQ(wanted.coat, 1u);
+    EXPECT_EQ(wanted.anisotropy, 1u);
+}
+
+// A bent sheet of 4 x 4 squares with normals, whose coordinates are the picture of `frame`.
+Mesh sheet(const TangentFrame& frame, bool isFlat) {
+    Mesh mesh;
+    mesh.uvs.resize(1);
+    for (int y = 0; y <= 4; ++y)
+        for (int x = 0; x <= 4; ++x) {
+            const glm::vec2 uv = glm::vec2(x, y) / 4.0f;
+            mesh.positions.emplace_back(x, 0.7f * static_cast<float>(y), 0.1f * static_cast<float>(x * y));
+            if (!isFlat)
+                mesh.normals.push_back(glm::normalize(glm::vec3(-0.1f * static_cast<float>(y), 0.1f, 1.0f)));
+            mesh.uvs[0].emplace_back(glm::dot(frame.uRow, uv), glm::dot(frame.vRow, uv));
+        }
+    for (uint32_t y = 0; y < 4; ++y)
+        for (uint32_t x = 0; x < 4; ++x) {
+            const uint32_t i = 5 * y + x;
+            mesh.triangles.emplace_back(i, i + 1, i + 6);
+            mesh.triangles.emplace_back(i, i + 6, i + 5);
+        }
+    return mesh;
+}
+
+// KHR_texture_transform: what a transform does to coordinates, it does to their directions.
+TEST(Tangents, FrameOfATransformIsThatOfTheCoordinatesThatItMakes) {
+    const float c = std::cos(0.7f);
+    const float s = std::sin(0.7f);
+    const std::vector<TangentFrame> frames = {
+        {0, {1, 0}, {0, 1}},         {0, {0, 1}, {-1, 0}},
+        {0, {c, s}, {-s, c}},        {0, {-1, 0}, {0, 1}}, // mirrored
+        {0, {1, 0}, {0, -1}},        {0, {-1, 0}, {0, -1}},
+        {0, {3 * c, s}, {-3 * s, c}} // sheared on the surface: scaled unevenly, then turned
+    };
+    for (const bool isFlat : {false, true}) {
+        Mesh all = sheet({}, isFlat);
+        generateTangents(all, frames);
+        ASSERT_EQ(all.furtherTangents.size(), frames.size() - 1);
+        for (size_t i = 0; i < frames.size(); ++i) {
+            Mesh baked = sheet(frames[i], isFlat);
+            generateTangents(baked, kPlain);
+            const std::vector<glm::vec4>& ours = i == 0 ? all.tangents : all.furtherTangents[i - 1];
+            ASSERT_EQ(ours.size(), all.positions.size());
+            for (size_t t = 0; t < all.triangles.size(); ++t)
+                for (int corner = 0; corner < 3; ++corner) {
+                    const glm::vec4& a = ours[all.triangles[t][corner]];
+                    const glm::vec4& b = baked.tangents.at(baked.triangles[t][corner]);
+                    EXPECT_LT(glm::length(a - b), 1e-5f) << "frame " << i;
+                }
+        }
+    }
+}
+
+// The second frame mirrors one of two triangles, so that it needs vertices that the first does not.
+TEST(Tangents, FramesOfSeveralUvSetsShareTheirVertices) {
+    Mesh mesh = square(false);
+    mesh.uvs.push_back(square(true).uvs[0]);
+    generateTangents(mesh, std::vector{TangentFrame{}, TangentFrame{.uvSet = 1}, TangentFrame{.uvSet = 7}});
+    EXPECT_EQ(mesh.positions.size(), 6u);
+    ASSERT_EQ(mesh.furtherTangents.size(), 2u);
+    EXPECT_TRUE(mesh.furtherTangents[1].empty());
+    for (int corner = 0; corner < 3; ++corner) {
+        EXPECT_EQ(mesh.tangents.at(mesh.triangles[1][corner]), glm::vec4(1, 0, 0, 1));
+        EXPECT_EQ(mesh.furtherTangents[0].at(mesh.triangles[0][corner]), glm::vec4(1, 0, 0, 1));
+        EXPECT_EQ(mesh.furtherTangents[0].at(mesh.triangles[1][corner]), glm::vec4(0, 1, 0, -1));
+    }
 }
 
 struct Difference {
@@ -109,7 +199,7 @@ Difference differenceOf(const Scene& scene) {
             continue;
         Mesh ours = shipped;
         ours.tangents.clear();
-        generateTangents(ours, 0);
+        generateTangents(ours, kPlain);
         for (size_t i = 0; i < ours.triangles.size(); ++i) {
             for (int corner = 0; corner < 3; ++corner) {
                 const glm::vec4& a = shipped.tangents[shipped.triangles[i][corner]];
