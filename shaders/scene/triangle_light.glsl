@@ -82,7 +82,7 @@ LightSample sampleTriangleLight(vec3 from, vec2 u, uint record) {
     light.pdf = triangleLightPdf(t, from, 0.5 * twiceArea, distance2, cosLight);
     light.isDelta = false;
     light.surface = t.surface;
-    if (cosLight == 0.0)
-        light.radiance = vec3(0.0);
+    if (!(abs(cosLight) > 0.0)) // seen from its own plane, where the drawn point may be undefined
+        light = kNoLightSample;
     return light;
 }
