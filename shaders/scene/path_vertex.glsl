@@ -4,6 +4,7 @@
 #include "lib/math/onb.glsl"
 #include "lib/sampling/roulette.glsl"
 #include "lib/solids.glsl"
+#include "scene/coated_emission.glsl"
 #include "scene/dispersion.glsl"
 #include "scene/frame.glsl"
 #include "scene/interaction.glsl"
@@ -169,6 +170,7 @@ NextRays scatter(Hit hit, Ray ray, uint slot, uint bounce, inout Path path) {
     if (sceneHas(kFeatureAttenuation) && !surface.isFront && isTransmissiveSolid(material))
         path.throughput *= exp(-material.attenuation * hit.t); // Beer-Lambert: the ray came through the inside
     const SampleKey key = keyOfSlot(slot, bounce + 1u);
+    const float throughCoat = coatTransmittance(material, -ray.direction, surface);
     material = texturedMaterial(material, -ray.direction, key, surface);
 
     // ---- Emission ----
@@ -176,7 +178,7 @@ NextRays scatter(Hit hit, Ray ray, uint slot, uint bounce, inout Path path) {
         path.radiance += clamped(path.throughput * material.baseColor, bounce);
         return next;
     }
-    const vec3 emission = emissionOf(material, surface.isFront);
+    const vec3 emission = throughCoat * emissionOf(material, surface.isFront);
     if (emission != vec3(0.0))
         path.radiance += clamped(
             path.throughput * emission * foundLightWeight(path.bsdfPdf, hitLightPdf(surface, hit, ray)), bounce);

@@ -3,6 +3,7 @@
 #include "lib/sampling/spherical_triangle.glsl"
 #include "lib/sampling/warp.glsl"
 #include "scene/alpha.glsl"
+#include "scene/coated_emission.glsl"
 #include "scene/triangle_record.glsl"
 #include "scene/light_sample.glsl"
 #include "scene/material.glsl"
@@ -45,10 +46,13 @@ vec3 barycentricsOf(TriangleRecord t, vec3 from, vec3 wi) {
     return b / (b.x + b.y + b.z);
 }
 
-// Radiance that leaves barycentrics b of the triangle to a side, as much of it as alpha lets be.
-vec3 emissionAt(TriangleRecord t, vec3 b, bool isFront) {
+// Radiance that leaves barycentrics b of the triangle t, number `record`, along wo, as much of it as alpha and a coat let
+// be.
+vec3 emissionAt(TriangleRecord t, uint record, vec3 b, vec3 wo, bool isFront) {
     const MaterialRecord material = fetchMaterial(t.material & kMaterialMask);
     vec3 emission = emissionOf(material, isFront);
+    if (sceneHas(kFeatureCoatedLights))
+        emission *= coatTransmittance(material, wo, makeInteraction(Hit(0.0, record, b.yz), wo));
     if (sceneHas(kFeatureTextures) && hasTexture(material.textureSlots, kSlotEmission))
         emission *=
             textureAt(textureIndex(material.firstTexture, material.textureSlots, kSlotEmission), t.surface, b).rgb;
@@ -78,7 +82,7 @@ LightSample sampleTriangleLight(vec3 from, vec2 u, uint record) {
     light.wi = d * inversesqrt(distance2);
     const float cosLight = -dot(light.wi, ng);
     light.end = offsetOrigin(p, hitPointError(b, t.v0, t.v1, t.v2), ng, -light.wi);
-    light.radiance = emissionAt(t, b, cosLight > 0.0);
+    light.radiance = emissionAt(t, record, b, -light.wi, cosLight > 0.0);
     light.pdf = triangleLightPdf(t, from, 0.5 * twiceArea, distance2, cosLight);
     light.isDelta = false;
     light.surface = t.surface;

@@ -41,6 +41,7 @@ SHARED_CONST SceneFeatures kFeatureLights = SHARED_FEATURE(22u);           // th
 SHARED_CONST SceneFeatures kFeatureEnvironmentLight = SHARED_FEATURE(23u); // the environment is among them
 SHARED_CONST SceneFeatures kFeatureLightRange = SHARED_FEATURE(24u);       // of punctual lights
 SHARED_CONST SceneFeatures kFeatureTangentPlanes = SHARED_FEATURE(30u); // several, for textures of different coordinates
+SHARED_CONST SceneFeatures kFeatureCoatedLights = SHARED_FEATURE(31u);  // emission below a clearcoat
 // Bits of the second word.
 SHARED_CONST SceneFeatures kFeatureLens = SHARED_FEATURE(32u); // the camera's, as the next two
 SHARED_CONST SceneFeatures kFeaturePanorama = SHARED_FEATURE(33u);

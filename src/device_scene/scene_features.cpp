@@ -79,6 +79,8 @@ bool wantsTangents(const Material& material) {
 
 SceneFeatures featuresOf(const Material& material) {
     SceneFeatures features = lobesOf(material) | extendedLobesOf(material);
+    const bool emits = material.emission != glm::vec3(0.0f) && !material.isUnlit;
+    features |= emits && material.clearcoat > 0.0f ? kFeatureCoatedLights : 0u;
     features |= textureSlots(material) != 0 ? kFeatureTextures : 0u;
     features |= wantsTangents(material) ? kFeatureTangents : 0u;
     features |= material.isUnlit ? kFeatureUnlit : 0u;

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "base/error.h"
 #include "base/log.h"
@@ -23,31 +24,25 @@ double triangleArea(const Mesh& mesh, const glm::uvec3& triangle) {
     return 0.5 * glm::length(glm::cross(v1 - v0, v2 - v0));
 }
 
-// Means of the emission textures by material; meshes share them.
-using TextureMeans = std::map<uint32_t, TextureMean>;
+// Means of textures by material and slot; meshes share them.
+using TextureMeans = std::map<std::pair<uint32_t, TextureSlot>, TextureMean>;
 
-// What a mesh's triangles emit.
-class Exitance {
+// A texture of a mesh's material as its triangles show it; white where there is none.
+class ShownTexture {
   public:
-    Exitance(const Scene& scene, const Mesh& mesh, TextureMeans& means)
-        : material_(&scene.materials[mesh.material]) {
-        const std::optional<Texture>& texture = material_->texture(TextureSlot::emission);
-        if (!emits() || !texture)
+    ShownTexture() = default;
+    ShownTexture(const Scene& scene, const Mesh& mesh, TextureSlot slot, TextureMeans& means) {
+        const std::optional<Texture>& texture = scene.materials[mesh.material].texture(slot);
+        if (!texture)
             return;
-        texels_ = &means.try_emplace(mesh.material, scene.pictures[texture->picture], *texture).first->second;
+        texels_ = &means.try_emplace({mesh.material, slot}, scene.pictures[texture->picture], *texture)
+                       .first->second;
         if (texture->uvSet < mesh.uvs.size())
             uvs_ = mesh.uvs[texture->uvSet];
     }
 
-    [[nodiscard]] bool emits() const { return !material_->isUnlit && material_->emission != glm::vec3(0.0f); }
-
-    // Exitance in W/m^2: radiance times pi, the integral of the cosine over the hemisphere, per emitting
-    // side. The mean of the channels rather than their luminance, since a blue light is as noisy as a green
-    // one where it is seen alone.
-    [[nodiscard]] double of(const glm::uvec3& triangle) const {
-        const glm::dvec3 texture = texels_ != nullptr ? texels_->over(corners(triangle)) : glm::dvec3(1.0);
-        const double mean = glm::dot(glm::dvec3(material_->emission), texture) / 3.0;
-        return mean * std::numbers::pi * (material_->doubleSided ? 2.0 : 1.0);
+    [[nodiscard]] glm::dvec3 over(const glm::uvec3& triangle) const {
+        return texels_ != nullptr ? texels_->over(corners(triangle)) : glm::dvec3(1.0);
     }
 
   private:
@@ -57,9 +52,48 @@ class Exitance {
         return {uvs_[triangle.x], uvs_[triangle.y], uvs_[triangle.z]};
     }
 
-    const Material* material_;
     const TextureMean* texels_ = nullptr;
     std::span<const glm::vec2> uvs_;
+};
+
+// What a mesh's triangles emit.
+class Exitance {
+  public:
+    Exitance(const Scene& scene, const Mesh& mesh, TextureMeans& means)
+        : material_(&scene.materials[mesh.material]) {
+        if (!emits())
+            return;
+        emission_ = ShownTexture(scene, mesh, TextureSlot::emission, means);
+        if (material_->clearcoat > 0.0f)
+            coat_ = ShownTexture(scene, mesh, TextureSlot::clearcoat, means);
+    }
+
+    [[nodiscard]] bool emits() const { return !material_->isUnlit && material_->emission != glm::vec3(0.0f); }
+
+    // Exitance in W/m^2: radiance times pi, the integral of the cosine over the hemisphere, per emitting
+    // side. The mean of the channels rather than their luminance, since a blue light is as noisy as a green
+    // one where it is seen alone.
+    [[nodiscard]] double of(const glm::uvec3& triangle) const {
+        const double mean =
+            glm::dot(glm::dvec3(material_->emission), emission_.over(triangle)) / 3.0 * throughCoat(triangle);
+        return mean * std::numbers::pi * (material_->doubleSided ? 2.0 : 1.0);
+    }
+
+  private:
+    // Share of the emission that leaves a coat (KHR_materials_clearcoat, "Emission") around the triangle's
+    // own normal. A textured coat counts by its mean, as if it did not depend on where the emission is.
+    [[nodiscard]] double throughCoat(const glm::uvec3& triangle) const {
+        if (material_->clearcoat == 0.0f)
+            return 1.0;
+        // Schlick's reflectance averaged over the hemisphere by the cosine: 2 x (1 - x)^5 integrates to 1
+        // / 21.
+        constexpr double kMeanReflectance = 0.04 + 0.96 / 21.0;
+        return 1.0 - material_->clearcoat * coat_.over(triangle).r * kMeanReflectance;
+    }
+
+    const Material* material_;
+    ShownTexture emission_;
+    ShownTexture coat_;
 };
 
 // Fills list and emitterOfTriangle.

@@ -49,6 +49,16 @@ TEST(SceneFeatures, MetalsAndCoatingsAreSpecularAndRoughUnlessTheyAreMirrors) {
     EXPECT_EQ(featuresOf(coated), kFeatureSpecular | kFeatureRoughLobes);
 }
 
+TEST(SceneFeatures, LightsBelowACoatAreNamed) {
+    Material lamp = lambert();
+    lamp.emission = glm::vec3(1.0f);
+    EXPECT_EQ(featuresOf(lamp) & kFeatureCoatedLights, 0u);
+    lamp.clearcoat = 0.5f;
+    EXPECT_NE(featuresOf(lamp) & kFeatureCoatedLights, 0u);
+    lamp.isUnlit = true;
+    EXPECT_EQ(featuresOf(lamp) & kFeatureCoatedLights, 0u);
+}
+
 TEST(SceneFeatures, GlassIsWhatTransmitsAndIsNoMetal) {
     Material glass = lambert();
     glass.transmission = 0.5f;

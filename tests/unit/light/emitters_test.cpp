@@ -38,6 +38,21 @@ TEST(Emitters, HavePowerAreaTimesPiTimesMeanRadiance) {
     EXPECT_NEAR(emitters.list[0].power, 2.0 * std::numbers::pi * 3.0, 1e-6);
 }
 
+// KHR_materials_clearcoat, "Emission": Schlick's 0.04 + 0.96 (1 - x)^5, averaged over the hemisphere, is 0.04
+// + 0.96 / 21.
+TEST(Emitters, BelowACoatHaveThePowerThatItLetsThrough) {
+    Material coated = light(glm::vec3(1.0f));
+    coated.clearcoat = 0.5f;
+    const double through = 1.0 - 0.5 * (0.04 + 0.96 / 21.0);
+    EXPECT_NEAR(findEmitters(sceneOf({coated}, {corner(0, 1)})).list.at(0).power,
+                through * 0.5 * std::numbers::pi, 1e-7);
+    Scene textured = sceneOf({coated}, {corner(0, 1)});
+    textured.pictures = {Picture{"half", 1, 1, false, {51, 0, 0, 255}}};
+    textured.materials[0].textures[static_cast<size_t>(TextureSlot::clearcoat)] = Texture{};
+    EXPECT_NEAR(findEmitters(textured).list.at(0).power,
+                (1.0 - 0.2 * (1.0 - through)) * 0.5 * std::numbers::pi, 1e-7);
+}
+
 TEST(Emitters, EmitTwiceWhenDoubleSided) {
     const Emitters emitters = findEmitters(
         sceneOf({light(glm::vec3(1.0f)), light(glm::vec3(1.0f), true)}, {corner(0, 1), corner(1, 1)}));
