@@ -18,6 +18,7 @@
 #include "gltf/read/pictures.h"
 #include "gltf/read/variants.h"
 #include "scene/framing_camera.h"
+#include "scene/solids.h"
 
 namespace lavalight {
 namespace {
@@ -84,6 +85,12 @@ Scene buildScene(const GltfDocument& document, const ImportOptions& options) {
     scene.meshes = readMeshes(document, nodes, scene.materials, notes);
     dropUnwornDefault(scene);
     scene.bounds = boundsOf(scene.meshes);
+    findSolids(scene);
+    for (const std::string& name : scene.openSolids)
+        notes.add(fmt::format(
+            "\"{}\" bounds no body (KHR_materials_volume): it is open, inside out, or transparent; light "
+            "is attenuated where it meets a back",
+            printable(name)));
     scene.cameras = readCameras(document, nodes.shown, notes);
     if (scene.meshes.empty())
         notes.add("the scene has no triangles");

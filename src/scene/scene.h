@@ -113,6 +113,7 @@ struct Mesh {
     std::vector<glm::vec4> colors{};           // linear, multiply base colour and alpha; empty: none
     // Unit length, xyz towards growing u; w: 1 or -1, bitangent = w * cross(normal, tangent). Empty: none.
     std::vector<glm::vec4> tangents{};
+    uint32_t solid = 0; // solid that it bounds, or helps to: 1 + an index into Scene::solids; 0: none
 };
 
 // A panorama shows all directions, by the convention of environment maps.
@@ -177,6 +178,12 @@ struct Bounds {
     [[nodiscard]] float radius() const { return 0.5f * glm::length(upper - lower); }
 };
 
+// A closed body with an inside (KHR_materials_volume).
+struct Solid {
+    uint32_t mesh = 0; // the first of the meshes that bound it, whose material says what it is filled with
+    Bounds bounds;
+};
+
 // The most triangles of a scene: three 16-byte texels each must fit into a texel buffer.
 constexpr uint64_t kMostTriangles = kMostTexels / 3;
 
@@ -199,7 +206,9 @@ struct Scene {
     glm::vec3 environment{0.0f};                  // constant radiance from every direction that hits nothing
     std::optional<EnvironmentMap> environmentMap; // instead of it
     Bounds bounds;
-    std::vector<std::string> warnings;          // what was not understood, one line each, with names
+    std::vector<Solid> solids;           // findSolids() fills this and the next; the smallest bounds first
+    std::vector<std::string> openSolids; // names of meshes that ought to bound a body and do not
+    std::vector<std::string> warnings;   // what was not understood, one line each, with names
     std::vector<std::string> ignoredExtensions; // exact names; they enter the bias ledger
     std::vector<std::string> extensionsUsed;    // exact names as the file lists them
     std::vector<std::string> variants;          // names of the material variants

@@ -156,6 +156,7 @@ void printText(const Scene& scene) {
     fmt::print("geometry memory      {:.3f} MiB\n", static_cast<double>(geometryBytes(scene)) / kMebibyte);
     fmt::print("textures             {} pictures, {} texels, {:.3f} MiB\n", scene.pictures.size(),
                texelCount(scene), static_cast<double>(pictureBytes(scene)) / kMebibyte);
+    fmt::print("solids               {} closed, {} open\n", scene.solids.size(), scene.openSolids.size());
     fmt::print("extensions used      {}\n", extensionText(scene));
     fmt::print("extensions ignored   {}\n", listText(scene.ignoredExtensions));
     for (size_t i = 0; i < scene.scenes.size(); ++i)
@@ -250,6 +251,8 @@ nlohmann::ordered_json sceneJson(const Scene& scene) {
         {"environment", vectorJson(scene.environment)},
         {"bounds", {{"lower", vectorJson(scene.bounds.lower)}, {"upper", vectorJson(scene.bounds.upper)}}},
         {"geometryBytes", geometryBytes(scene)},
+        {"solids", scene.solids.size()},
+        {"openSolids", scene.openSolids},
         {"extensionsUsed", scene.extensionsUsed},
         {"extensionsIgnored", scene.ignoredExtensions},
         {"cameras", cameras},
