@@ -35,11 +35,13 @@ vec3 attenuationOf(Hit hit, Ray ray, Interaction surface, MaterialRecord materia
     return sceneHas(kFeatureSolids) ? transmittance(mediumOf(ray.interior), hit.t) : vec3(1.0);
 }
 
-// Index beyond the surface, relative to the one on the side of the path, in a channel of the path.
-float relativeIndex(MediaSides media, uint channel) {
+// The index behind the front of a boundary relative to the one before it, in a channel of the path.
+float boundaryIndex(MediaSides media, bool isFront, uint channel) {
     const float here = channelIor(media.hereMedium.ior, media.hereMedium.dispersion, channel);
     const float beyond = channelIor(media.beyondMedium.ior, media.beyondMedium.dispersion, channel);
-    return here == beyond ? 1.0 : beyond / here;
+    if (here == beyond)
+        return 1.0;
+    return isFront ? relativeIndex(beyond, here) : relativeIndex(here, beyond);
 }
 
 // Chooses a channel where the surface disperses, and the material's index: at the boundary of a solid, that of the back's side
@@ -55,10 +57,8 @@ void chooseIndex(Interaction surface, MediaSides media, SampleKey key, inout Pat
         if (disperses && !isBoundary)
             material.ior = channelIor(material.ior, material.dispersion, channel);
     }
-    if (isBoundary) {
-        const float index = relativeIndex(media, channel);
-        material.ior = surface.isFront ? index : 1.0 / index;
-    }
+    if (isBoundary)
+        material.ior = boundaryIndex(media, surface.isFront, channel);
 }
 
 // Whether `wi` leads to the other side than the path came from.

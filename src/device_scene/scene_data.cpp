@@ -115,7 +115,7 @@ std::vector<SolidRecord> packSolids(const Scene& scene) {
     std::vector<SolidRecord> packed{{glm::vec3(0.0f), 1.0f, 0.0f, {}}};
     for (const Solid& solid : scene.solids) {
         const Material& m = scene.materials[scene.meshes[solid.mesh].material];
-        packed.push_back({absorption(m), m.ior, m.transmission > 0.0f ? m.dispersion : 0.0f, {}});
+        packed.push_back({absorption(m), m.ior, m.transmission > 0.0f && m.ior > 0.0f ? m.dispersion : 0.0f, {}});
     }
     return packed;
 }
