@@ -27,13 +27,13 @@ def metal(name, color, alpha):
     return {"name": name, "pbrMetallicRoughness": factors}
 
 
-def glass(name, thickness):
-    """Clear and smooth; a thickness (of the mesh, before the node's scale) above 0 marks a solid body."""
+def glass(name, thickness, ior=1.5, **volume):
+    """Smooth; a thickness (of the mesh, before the node's scale) above 0 marks a solid body. volume: what it absorbs."""
     factors = {"baseColorFactor": [1.0] * 4, "metallicFactor": 0.0, "roughnessFactor": 0.0}
     return {"name": name, "pbrMetallicRoughness": factors,
-            "extensions": {"KHR_materials_ior": {"ior": 1.5},
+            "extensions": {"KHR_materials_ior": {"ior": ior},
                            "KHR_materials_transmission": {"transmissionFactor": 1.0},
-                           "KHR_materials_volume": {"thicknessFactor": thickness}}}
+                           "KHR_materials_volume": {"thicknessFactor": thickness, **volume}}}
 
 
 class Builder:

@@ -68,6 +68,29 @@ def torus(radius, tube, around, across):
     return points, corners, normals
 
 
+def revolved(around, *arcs):
+    """The surface that profiles leave as they turn about the y axis. Each is a row of points (r, y) with its own normals; it
+    goes up where its outside is away from the axis. Neighbours meet in creases."""
+    points, corners, normals = [], [], []
+    for arc in arcs:
+        first = len(points)
+        for k, (r, y) in enumerate(arc):
+            before, after = arc[max(k - 1, 0)], arc[min(k + 1, len(arc) - 1)]
+            nr, ny = after[1] - before[1], before[0] - after[0]
+            for i in range(around):
+                phi = 2 * math.pi * i / around
+                points.append((r * math.cos(phi), y, -r * math.sin(phi)))
+                normals.append(normalized((nr * math.cos(phi), ny, -nr * math.sin(phi))))
+        for k in range(len(arc) - 1):
+            for i in range(around):
+                here, there = first + k * around + i, first + k * around + (i + 1) % around
+                if arc[k][0] > 0:
+                    corners += [here, there, there + around]
+                if arc[k + 1][0] > 0:
+                    corners += [here, there + around, here + around]
+    return points, corners, normals
+
+
 def hash01(*key):
     """A number in [0, 1) from whole numbers by the 32-bit mixing function "lowbias32" (Wellons, 2018)."""
     x = 0

@@ -10,5 +10,8 @@ void main() {
     if (gl_GlobalInvocationID.x >= counters[range.bounce].rays)
         return;
     const uint slot = queues[rayQueueStart(range.bounce, frame.waveSize) + gl_GlobalInvocationID.x];
-    hits[slot] = trace(rays[slot], slot, range.bounce);
+    Ray ray = rays[slot];
+    hits[slot] = trace(slot, range.bounce, ray);
+    if (sceneHas(kFeatureSolids))
+        rays[slot].interior = ray.interior;
 }

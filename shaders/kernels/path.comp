@@ -81,20 +81,20 @@ void main() {
     uint shadowRays = 0u;
     uint cutPaths = 0u;
     uint cutThroughput = 0u;
-    uint overlaps = 0u;
-    uint overlapPair = 0u;
+    uint crowdedPaths = 0u;
+    uint crowdedSolid = 0u;
     for (uint i = 0u; i < kVerticesPerDispatch && hasWork(lane, slots); ++i) {
         if (lane.bounce == 0u)
             takePath(index, slots, lane, path);
-        const Hit hit = trace(lane.ray, lane.slot, lane.bounce);
+        const Hit hit = trace(lane.slot, lane.bounce, lane.ray);
         const NextRays next = scatter(hit, lane.ray, lane.slot, lane.bounce, path);
         shadowRays += next.wantsShadowRay ? 1u : 0u;
         if (next.wantsShadowRay && !isOccluded(next.shadow, lane.slot, lane.bounce))
             path.radiance += next.shadow.contribution;
         cutPaths += next.isCut ? 1u : 0u;
         cutThroughput += next.isCut ? fixedThroughput(path.throughput) : 0u;
-        overlaps += next.overlap > 0u ? 1u : 0u;
-        overlapPair = max(overlapPair, next.overlap);
+        crowdedPaths += next.crowdedSolid > 0u ? 1u : 0u;
+        crowdedSolid = max(crowdedSolid, next.crowdedSolid);
         indirectRays += next.goesOn ? 1u : 0u;
         lane.ray = next.ray;
         if (next.goesOn && (!sceneHas(kFeatureManyTriangles) || lane.bounce > 0u)) {
@@ -112,7 +112,7 @@ void main() {
     atomicAdd(counters.indirectRays, indirectRays);
     atomicAdd(counters.shadowRays, shadowRays);
     tallyCutPaths(cutPaths, cutThroughput);
-    tallyOverlaps(overlaps, overlapPair);
+    tallyCrowded(crowdedPaths, crowdedSolid);
     if (hasWork(lane, slots))
         atomicAdd(counters.unfinished, 1u);
 }

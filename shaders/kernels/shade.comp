@@ -18,8 +18,8 @@ void main() {
     paths[slot] = path;
     if (next.isCut)
         tallyCutPaths(1u, fixedThroughput(path.throughput));
-    if (next.overlap > 0u)
-        tallyOverlaps(1u, next.overlap);
+    if (next.crowdedSolid > 0u)
+        tallyCrowded(1u, next.crowdedSolid);
     if (next.wantsShadowRay)
         shadowRays[slot] = next.shadow;
     if (next.goesOn)

@@ -39,7 +39,7 @@ void main() {
         path = kNewPath;
     }
     const vec3 before = path.radiance;
-    const Hit hit = trace(ray, slot, bounce);
+    const Hit hit = trace(slot, bounce, ray);
     TracedVertex v = describe(ray, hit);
     v.throughput = path.throughput;
     const NextRays next = scatter(hit, ray, slot, bounce, path);

@@ -38,5 +38,6 @@ Ray cameraRay(FrameParameters parameters, vec2 position, vec2 lens) {
         moveOnLens(parameters, lens, origin, parameters.cameraForward + onPlane, direction);
     if (!sceneHas(kFeaturePanorama)) // without a near plane this adds 0, which is cheaper than a branch on uniforms
         origin += direction * (parameters.clipNear / dot(direction, parameters.cameraForward));
-    return Ray(origin, kNoSurface, direction, 0.0, 0u, InteriorList(0u, 0u, 0u));
+    const InteriorList interior = InteriorList(parameters.startOuter, parameters.startInner, parameters.startNotes);
+    return Ray(origin, kNoSurface, direction, 0.0, 0u, interior);
 }

@@ -41,7 +41,7 @@ InteriorList enterInterior(InteriorList list, uint solid) {
     else if (count < kInteriorEntries)
         list.inner |= solidNumber(solid) << 16u * (count - 2u);
     else if (interiorOverflow(list) < kInteriorOverflowMask)
-        ++list.notes;
+        list.notes = list.notes + 1u | kInteriorWasCrowded;
     return list;
 }
 
@@ -62,6 +62,49 @@ InteriorList leaveInterior(InteriorList list, uint solid) {
     list.outer = entries.x | entries.y << 16u;
     list.inner = entries.z | entries.w << 16u;
     return list;
+}
+
+// The list once the path has passed the boundary of a solid, 0: of none. Leaving one that was never entered changes nothing.
+InteriorList crossed(InteriorList list, uint solid, bool enters) {
+    InteriorList after = list;
+    if (solid != 0u && enters)
+        after = enterInterior(list, solid);
+    else if (solid != 0u && (interiorContains(list, solid) || interiorOverflow(list) > 0u))
+        after = leaveInterior(list, solid);
+    return after;
+}
+
+// The solid whose medium fills the place: of those on the list the lowest number, which is the smallest body. 0: none. It is
+// a function of the set alone, so that all paths agree about it.
+uint solidAround(InteriorList list) {
+    uint lowest = 0u;
+    for (uint i = 0u; i < kInteriorEntries; ++i) {
+        const uint number = interiorAt(list, i);
+        lowest = number != 0u && (lowest == 0u || number < lowest) ? number : lowest;
+    }
+    return lowest;
+}
+
+// Notes that the boundary at the ray's end is one of `solid`, too.
+InteriorList withTouching(InteriorList list, uint solid, bool enters) {
+    list.notes |= solidNumber(solid) << kInteriorTouchingShift | (enters ? kInteriorEntersTouching : 0u);
+    return list;
+}
+
+uint touchingSolid(InteriorList list) {
+    return list.notes >> kInteriorTouchingShift;
+}
+
+// The list without what it notes of one ray.
+InteriorList withoutRayNotes(InteriorList list) {
+    list.notes &= kInteriorOverflowMask | kInteriorWasCrowded | kInteriorIsCounted;
+    return list;
+}
+
+// The list beyond the boundary of `solid`, and of the one that touches it there.
+InteriorList beyondBoundary(InteriorList list, uint solid, bool enters) {
+    const InteriorList after = crossed(list, solid, enters);
+    return withoutRayNotes(crossed(after, touchingSolid(list), (list.notes & kInteriorEntersTouching) != 0u));
 }
 
 #endif

@@ -4,24 +4,26 @@
 #include "shared/wavefront.h"
 
 bool isDispersive(MaterialRecord material) {
-    return material.dispersion > 0.0 && material.transmission > 0.0 && (material.flags & kMaterialSolid) != 0u;
+    return material.dispersion > 0.0 && material.transmission > 0.0 && (material.flags & kMaterialSolid) != 0u &&
+           material.ior > 0.0;
 }
 
-// Indices of red, green, blue: Cauchy's curve between Fraunhofer's lines C, d and F as a straight one; dispersion = 20 / Abbe
-// number.
-vec3 channelIors(float ior, float dispersion) {
+const uint kMiddleChannel = 1u;
+
+// The index in red, green or blue: Cauchy's curve between Fraunhofer's lines C, d and F as a straight one; dispersion = 20 /
+// Abbe number.
+float channelIor(float ior, float dispersion, uint channel) {
     const float halfSpread = (ior - 1.0) * 0.025 * dispersion;
-    return max(vec3(ior - halfSpread, ior, ior + halfSpread), 1.0);
+    return dispersion > 0.0 ? max(ior + (float(channel) - 1.0) * halfSpread, 1.0) : ior;
 }
 
 // Chooses by what the channels carry, so that the largest weight of a path does not grow; one that is alone stays as it is.
-void chooseChannel(float u, inout Path path, inout MaterialRecord material) {
-    const vec3 iors = channelIors(material.ior, material.dispersion);
+uint chooseChannel(float u, inout Path path) {
     const vec3 t = path.throughput;
     const float sum = t.x + t.y + t.z;
     const float place = u * sum;
     const bool isRed = place < t.x || t.yz == vec2(0.0);
     const bool isBlue = !isRed && (place >= t.x + t.y || t.y == 0.0) && t.z > 0.0;
     path.throughput = isRed ? vec3(sum, 0.0, 0.0) : isBlue ? vec3(0.0, 0.0, sum) : vec3(0.0, sum, 0.0);
-    material.ior = isRed ? iors.x : isBlue ? iors.z : iors.y;
+    return isRed ? 0u : isBlue ? 2u : kMiddleChannel;
 }

@@ -3,13 +3,12 @@
 #include "lib/sampling/mis.glsl"
 #include "lib/math/onb.glsl"
 #include "lib/sampling/roulette.glsl"
-#include "lib/solids.glsl"
 #include "scene/coated_emission.glsl"
-#include "scene/dispersion.glsl"
 #include "scene/frame.glsl"
 #include "scene/interaction.glsl"
 #include "scene/light.glsl"
 #include "scene/material.glsl"
+#include "scene/media_sides.glsl"
 #include "scene/textured_material.glsl"
 
 // A vertex of the path with all that its parts ask for.
@@ -21,6 +20,7 @@ struct Vertex {
     uint receiver;  // packed, for the light tree
     float survival; // probability by albedo, known before a direction is drawn
     SampleKey key;
+    MediaSides media; // with kFeatureSolids
 };
 
 // What comes from beyond the first vertex, limited if --clamp-indirect asks for it; `scatterings` before it is seen.
@@ -52,10 +52,6 @@ float missLightPdf(Ray ray) {
     return environmentPmf(frame) * environmentPdf(frame, ray.direction, ray.originCosine);
 }
 
-bool isTransmissiveSolid(MaterialRecord m) {
-    return (m.flags & kMaterialSolid) != 0u && (m.transmission > 0.0 || m.diffuseTransmission > 0.0);
-}
-
 // n and ng must agree about the side of wi.
 bool isSameSide(Vertex v, vec3 wi, float localZ) {
     return (dot(wi, v.surface.ng) > 0.0) == (localZ > 0.0);
@@ -71,8 +67,9 @@ bool nextEvent(Vertex v, vec3 throughput, out ShadowRay shadow) {
     const float bsdfPdf = pdfBsdf(v.bsdf, v.wo, wi) * (kMisSurvival != 0u ? v.survival : 1.0);
     const float weight = light.isDelta ? 1.0 : misWeight(kMis, light.pdf, bsdfPdf);
     const vec3 arriving = evalBsdf(v.bsdf, v.wo, wi) * light.radiance * (weight / light.pdf);
-    shadow.contribution = clamped(throughput * arriving, v.key.vertex);
-    shadow.origin = offsetOrigin(v.surface.p, v.surface.pError, v.surface.ng, light.wi);
+    const vec3 left = transmittanceTowards(v.surface, v.media, light.wi, distance(light.end, v.surface.p));
+    shadow.contribution = clamped(throughput * arriving * left, v.key.vertex);
+    shadow.origin = shadowOrigin(v.surface, light.wi);
     shadow.direction = light.end - shadow.origin;
     shadow.fromSurface = v.surface.id;
     shadow.toSurface = light.surface;
@@ -84,9 +81,13 @@ bool nextRay(Vertex v, inout Path path, out Ray ray) {
     const BsdfSample next =
         sampleBsdf(v.bsdf, v.wo, sample2D(v.key, kDimensionBsdf), sample1D(v.key, kDimensionLobe));
     const vec3 wi = toWorld(v.basis, next.wi);
-    ray = Ray(offsetOrigin(v.surface.p, v.surface.pError, v.surface.ng, wi), v.surface.id, wi, next.wi.z,
-              v.receiver, kNoInterior);
+    const vec3 origin = nextOrigin(v.surface, v.media, wi);
+    ray = Ray(origin, v.surface.id, wi, next.wi.z, v.receiver, kNoInterior);
     path.throughput *= next.weight;
+    if (sceneHas(kFeatureSolids)) {
+        ray.interior = passes(v.surface, wi) ? v.media.beyond : v.media.here;
+        path.throughput *= transmittanceTowards(v.surface, v.media, wi, max(dot(origin - v.surface.p, wi), 0.0));
+    }
     path.bsdfPdf = next.pdf * (kMisSurvival != 0u ? v.survival : 1.0);
     path.etaScale *= next.eta * next.eta;
     return path.throughput != vec3(0.0) && isSameSide(v, wi, next.wi.z);
@@ -126,7 +127,7 @@ Vertex makeVertex(Interaction surface, MaterialRecord material, vec3 wo, SampleK
 struct NextRays {
     bool goesOn;
     bool isCut;     // --max-bounces ended the path
-    uint overlap;   // packOverlap() of two solids that the path was within at once, it turns out; else 0
+    uint crowdedSolid; // a solid that the path is in, where these are more than its list holds for the first time; else 0
     float survival; // probability that roulette left the path; 1: nothing was drawn
     Ray ray;
     bool wantsShadowRay;
@@ -137,28 +138,17 @@ NextRays nothingNext() {
     NextRays next;
     next.goesOn = false;
     next.isCut = false;
-    next.overlap = 0u;
+    next.crowdedSolid = 0u;
     next.survival = 1.0;
     next.wantsShadowRay = false;
     return next;
 }
 
-// Tells the next ray which solids the path has entered, after a vertex `distance` from the one before.
-void noteSolids(Ray ray, Interaction surface, float distance, inout NextRays next) {
-    if (!sceneHas(kFeatureSolids))
-        return;
-    const vec3 e = surface.pError;
-    const float rounding = 32.0 * max(e.x, max(e.y, e.z)); // covers vertices that were transformed, too
-    const bool passes = dot(next.ray.direction, surface.ng) < 0.0;
-    next.ray.interior = passes ? passSolid(ray.interior, surface.solid, surface.isFront, distance > rounding)
-                               : turnAmongSolids(ray.interior);
-    if (solidsState(next.ray.interior) == kSolidsOverlap && solidsState(ray.interior) != kSolidsOverlap)
-        next.overlap = packOverlap(next.ray.interior);
-}
-
 // The vertex where `ray` met the scene, after `bounce` others: the path collects what is emitted there, and is scattered.
 NextRays scatter(Hit hit, Ray ray, uint slot, uint bounce, inout Path path) {
     NextRays next = nothingNext();
+    if (sceneHas(kFeatureSolids) && (ray.interior.notes & kInteriorPassed) != 0u)
+        path.bsdfPdf = 0.0; // the boundaries that it passed block shadow rays: what it finds counts in full
     if (hit.t == kInfinity) {
         const vec3 found = path.throughput * environmentRadiance(frame, ray.direction) *
                            foundLightWeight(path.bsdfPdf, missLightPdf(ray));
@@ -167,8 +157,8 @@ NextRays scatter(Hit hit, Ray ray, uint slot, uint bounce, inout Path path) {
     }
     Interaction surface = makeInteraction(hit, -ray.direction);
     MaterialRecord material = fetchMaterial(surface.material);
-    if (sceneHas(kFeatureAttenuation) && !surface.isFront && isTransmissiveSolid(material))
-        path.throughput *= exp(-material.attenuation * hit.t); // Beer-Lambert: the ray came through the inside
+    if (sceneHas(kFeatureSolids) || sceneHas(kFeatureAttenuation))
+        path.throughput *= attenuationOf(hit, ray, surface, material);
     const SampleKey key = keyOfSlot(slot, bounce + 1u);
     const float throughCoat = coatTransmittance(material, -ray.direction, surface);
     material = texturedMaterial(material, -ray.direction, key, surface);
@@ -185,9 +175,14 @@ NextRays scatter(Hit hit, Ray ray, uint slot, uint bounce, inout Path path) {
     next.isCut = bounce >= frame.maxBounces;
     if (next.isCut)
         return next;
-    if (sceneHas(kFeatureDispersion) && isDispersive(material))
-        chooseChannel(sample1D(key, kDimensionChannel), path, material);
-    const Vertex vertex = makeVertex(surface, material, -ray.direction, key);
+    MediaSides media;
+    if (sceneHas(kFeatureSolids))
+        media = mediaSides(ray.interior, surface.solid, surface.isFront);
+    if (sceneHas(kFeatureSolids) || sceneHas(kFeatureDispersion))
+        chooseIndex(surface, media, key, path, material);
+    Vertex vertex = makeVertex(surface, material, -ray.direction, key);
+    if (sceneHas(kFeatureSolids))
+        vertex.media = media;
 
     // ---- Next-event estimation ----
     if (kNee != 0u && sceneHas(kFeatureLights) && hasNonDelta(vertex.bsdf))
@@ -195,6 +190,7 @@ NextRays scatter(Hit hit, Ray ray, uint slot, uint bounce, inout Path path) {
 
     // ---- BSDF sampling and roulette ----
     next.goesOn = nextRay(vertex, path, next.ray) && survives(vertex, path, next.survival);
-    noteSolids(ray, surface, hit.t, next);
+    if (sceneHas(kFeatureSolids))
+        next.crowdedSolid = newlyCrowdedSolid(next.ray.interior);
     return next;
 }

@@ -17,11 +17,12 @@ uint fixedThroughput(vec3 throughput) {
     return uint(min(dot(throughput, vec3(1.0 / 3.0)), 4095.9) * 65536.0 + 0.5);
 }
 
-// Paths that were within two solids at once, and the greatest pair of these: an example, the same in every run.
-void tallyOverlaps(uint paths, uint pair) {
+// Paths that were within more solids than their lists hold, and the highest number of one of these: an example, the same in
+// every run.
+void tallyCrowded(uint paths, uint solid) {
     if (sceneHas(kFeatureSolids) && paths > 0u) {
-        addTally(kTallyOverlaps, paths);
-        atomicMax(tallies[2u * kTallyOverlapPair], pair);
+        addTally(kTallyCrowded, paths);
+        atomicMax(tallies[2u * kTallyCrowdedSolid], solid);
     }
 }
 

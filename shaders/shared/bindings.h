@@ -44,4 +44,6 @@
 
 #define BINDING_DISPLAY 29
 
+#define BINDING_SOLIDS 31 // read only, as the scene's others
+
 #endif

@@ -30,7 +30,7 @@ SHARED_CONST SceneFeatures kFeatureTangents = SHARED_FEATURE(11u); // tangents o
 SHARED_CONST SceneFeatures kFeatureAlpha = SHARED_FEATURE(12u);
 SHARED_CONST SceneFeatures kFeatureUnlit = SHARED_FEATURE(13u);
 SHARED_CONST SceneFeatures kFeatureEnvironmentMap = SHARED_FEATURE(14u);
-SHARED_CONST SceneFeatures kFeatureAttenuation = SHARED_FEATURE(15u);
+SHARED_CONST SceneFeatures kFeatureAttenuation = SHARED_FEATURE(15u); // behind open surfaces
 SHARED_CONST SceneFeatures kFeatureDispersion = SHARED_FEATURE(16u);
 SHARED_CONST SceneFeatures kFeatureClearcoat = SHARED_FEATURE(17u);
 SHARED_CONST SceneFeatures kFeatureSheen = SHARED_FEATURE(18u);
@@ -46,8 +46,9 @@ SHARED_CONST SceneFeatures kFeatureCoatedLights = SHARED_FEATURE(31u);  // emiss
 SHARED_CONST SceneFeatures kFeatureLens = SHARED_FEATURE(32u); // the camera's, as the next two
 SHARED_CONST SceneFeatures kFeaturePanorama = SHARED_FEATURE(33u);
 SHARED_CONST SceneFeatures kFeatureOrthographic = SHARED_FEATURE(34u);
-SHARED_CONST SceneFeatures kFeatureSolids = SHARED_FEATURE(35u);        // two solids that may overlap
+SHARED_CONST SceneFeatures kFeatureSolids = SHARED_FEATURE(35u);        // paths keep a list of the solids that they are in
 SHARED_CONST SceneFeatures kFeatureManyTriangles = SHARED_FEATURE(36u); // so that it pays to trace alike rays together
+SHARED_CONST SceneFeatures kFeatureStartsVary = SHARED_FEATURE(37u);    // camera rays start in different solids
 
 LAVALIGHT_SHARED_END
 

@@ -34,7 +34,13 @@ struct FrameParameters {
     float focusDistance;       // metres along cameraForward to the plane that is sharp
     float clipNear;  // metres along cameraForward; what is nearer is not seen by camera rays
     float clipDepth; // metres from there to where they end; infinite: nowhere
-    uint unused0;
+    uint startOuter;     // the InteriorList at startReference, as the next two
+    vec3 startReference; // where camera rays start, or near there
+    uint startInner;
+    uint startNotes;
+    uint startsVary; // kFeatureStartsVary is wanted
+    uint unused1;
+    uint unused2;
 };
 
 // Specialisation constants: the estimator settings that pick code (lib/estimator.glsl).

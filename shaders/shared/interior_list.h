@@ -11,7 +11,7 @@ LAVALIGHT_SHARED_BEGIN
 //             bits 31 to 16       15 to 0
 //   outer   |  second           | first                            |
 //   inner   |  fourth           | third                            |
-//   notes   |  of lib/solids.glsl, 24 bits | entered without room |
+//   notes   |  touching solid   | flags, below                     |
 struct InteriorList {
     uint outer;
     uint inner;
@@ -19,7 +19,14 @@ struct InteriorList {
 };
 SHARED_CONST uint kInteriorEntries = 4u;
 SHARED_CONST uint kLastSolid = 0xffffu; // solids of higher numbers count as this one
-SHARED_CONST uint kInteriorOverflowMask = 0xffu;
+
+// Notes.
+SHARED_CONST uint kInteriorOverflowMask = 0xffu;  // solids that were entered without room
+SHARED_CONST uint kInteriorWasCrowded = 0x100u;   // there was no room for a solid
+SHARED_CONST uint kInteriorIsCounted = 0x200u;    // the tally has this path among the crowded ones
+SHARED_CONST uint kInteriorPassed = 0x400u;       // the ray has passed boundaries that are no vertices
+SHARED_CONST uint kInteriorEntersTouching = 0x800u; // the ray's end is a boundary of the touching solid, too: it enters it
+SHARED_CONST uint kInteriorTouchingShift = 16u;   // the touching solid, or 0
 
 LAVALIGHT_SHARED_END
 

@@ -17,8 +17,18 @@ struct TriangleNormals {
     uint n0;
     uint n1;
     uint n2;
-    uint solid; // number of its mesh, from 1 on, where that is the boundary of a volume; else 0
+    uint solid; // number of the solid that it bounds, from 1 on; else 0
 };
+
+// Two texels a solid: what it is filled with. Record 0 is the space outside all of them. Where solids overlap, the medium is
+// that of the lowest number.
+struct SolidRecord {
+    vec3 attenuation; // absorption per metre
+    float ior;
+    float dispersion;
+    float unused[3];
+};
+SHARED_CONST uint kSolidTexels = 2u;
 
 // Eleven texels a material; the members mean what those of C++'s Material mean. 0 turns a lobe off.
 struct MaterialRecord {
@@ -145,6 +155,7 @@ SHARED_CONST float kLeastTabulatedRoughness = 0.0316227766f; // alpha is kSmooth
 LAVALIGHT_SHARED_END
 
 #ifdef __cplusplus
+static_assert(sizeof(lavalight::SolidRecord) == 16 * lavalight::kSolidTexels);
 static_assert(sizeof(lavalight::MaterialRecord) == 16 * lavalight::kMaterialTexels);
 #endif
 

@@ -18,12 +18,12 @@ std::string hashOfAll(const std::vector<Records>&... records) {
 
 Fingerprints fingerprintsOf(const SceneData& scene) {
     // A member that is added must find its place below.
-    const auto& [accelerator, triangles, normals, materials, lights, punctuals, lightTree, textures, uvs,
-                 colors, tangents, environmentMap, environmentQuads, features] = scene;
+    const auto& [accelerator, triangles, normals, materials, solids, lights, punctuals, lightTree, textures,
+                 uvs, colors, tangents, environmentMap, environmentQuads, features] = scene;
     const auto& [pictures, textureRecords, firstRecords] = textures;
     return {
         {"geometry", hashOfAll(triangles, normals, uvs, colors, tangents)},
-        {"materials", hashOfAll(materials, std::vector{features})},
+        {"materials", hashOfAll(materials, solids, std::vector{features})},
         {"textures", hashOfAll(pictures, textureRecords, firstRecords)},
         {"lights", hashOfAll(lights, punctuals, lightTree)},
         {"environment map", hashOfAll(environmentMap, environmentQuads)},

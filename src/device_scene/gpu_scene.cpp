@@ -27,6 +27,7 @@ GpuScene::GpuScene(gpu::Device& device, const SceneData& data, const KernelSourc
       accelerator_(device, data.accelerator, data.triangles),
       normals_(uploadTexels(device, "triangle normals", data.normals)),
       materials_(uploadTexels(device, "materials", data.materials)),
+      solids_(uploadTexels(device, "solids", data.solids)),
       lights_(uploadTexels(device, "lights", lightsInRecords(data))),
       punctuals_(uploadTexels(device, "punctual lights", data.punctuals)),
       lightTree_(uploadTexels(device, "light tree", data.lightTree)),
@@ -43,6 +44,7 @@ void GpuScene::addTo(gpu::ResourceTable& resources) const {
     accelerator_.addTo(resources);
     resources.set("triangleNormals", normals_);
     resources.set("materials", materials_);
+    resources.set("solids", solids_);
     resources.set("lights", lights_);
     resources.set("punctuals", punctuals_);
     resources.set("lightTree", lightTree_);
@@ -57,7 +59,7 @@ void GpuScene::addTo(gpu::ResourceTable& resources) const {
 }
 
 uint64_t GpuScene::bytes() const {
-    return accelerator_.bytes() + normals_.bytes() + materials_.bytes() + lights_.bytes() +
+    return accelerator_.bytes() + normals_.bytes() + materials_.bytes() + solids_.bytes() + lights_.bytes() +
            punctuals_.bytes() + lightTree_.bytes() + pictures_.bytes() + textures_.bytes() + uvs_.bytes() +
            colors_.bytes() + tangents_.bytes() + environmentMap_.bytes() + environmentQuads_.bytes() +
            albedoTable_.buffer.bytes();

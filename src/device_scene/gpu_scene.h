@@ -40,6 +40,7 @@ class GpuScene {
     Accelerator accelerator_;
     gpu::Buffer normals_;
     gpu::Buffer materials_;
+    gpu::Buffer solids_;
     gpu::Buffer lights_;
     gpu::Buffer punctuals_;
     gpu::Buffer lightTree_;

@@ -12,6 +12,7 @@
 #include "device_scene/octahedral.h"
 #include "device_scene/scene_features.h"
 #include "scene/coverage.h"
+#include "scene/solids.h"
 #include "scene/tangents.h"
 
 namespace lavalight {
@@ -23,8 +24,8 @@ uint32_t materialWord(const Mesh& mesh, const Material& material, bool isTranspa
         word |= kAlphaBit;
     if (mesh.normals.empty())
         word |= kFlatBit;
-    if (material.doubleSided || (material.isSolid && material.transmission > 0.0f))
-        word |= kNeverCulledBit; // the far side of a glass body is part of what is seen through it
+    if (material.doubleSided || boundsSolid(material))
+        word |= kNeverCulledBit; // the far side of a body is part of what is seen through it
     return word;
 }
 
@@ -55,10 +56,8 @@ std::vector<TriangleRecord> packTriangles(std::span<const Triangle> triangles, c
 std::vector<TriangleNormals> packNormals(const Scene& scene) {
     std::vector<TriangleNormals> packed;
     packed.reserve(scene.triangleCount());
-    for (size_t i = 0; i < scene.meshes.size(); ++i) {
-        const Mesh& mesh = scene.meshes[i];
-        const bool isSolid = boundsSolid(scene.materials[mesh.material]);
-        const uint32_t solid = isSolid ? static_cast<uint32_t>(i + 1) : 0u;
+    for (const Mesh& mesh : scene.meshes) {
+        const uint32_t solid = mesh.solid;
         for (const glm::uvec3& t : mesh.triangles)
             packed.push_back(mesh.normals.empty()
                                  ? TriangleNormals{0, 0, 0, solid}
@@ -111,6 +110,16 @@ MaterialRecord packMaterial(const Material& m) {
     r.diffuseTransmission = m.diffuseTransmission;
     r.diffuseTransmissionColor = m.diffuseTransmissionColor;
     return r;
+}
+
+std::vector<SolidRecord> packSolids(const Scene& scene) {
+    std::vector<SolidRecord> packed{{glm::vec3(0.0f), 1.0f, 0.0f, {}}};
+    for (const Solid& solid : scene.solids) {
+        const Material& m = scene.materials[scene.meshes[solid.mesh].material];
+        packed.push_back(
+            {absorption(m), m.ior, m.transmission > 0.0f && m.ior > 0.0f ? m.dispersion : 0.0f, {}});
+    }
+    return packed;
 }
 
 // firstTextures: per material; empty: no textures are looked up.
@@ -180,6 +189,7 @@ SceneData packScene(const Scene& scene, const Lights& lights) {
     data.normals = packNormals(scene);
     data.materials = packMaterials(scene, data.textures.firstRecords);
     packTangentPlanes(scene, data.materials);
+    data.solids = packSolids(scene);
     data.lights = packLights(lights);
     data.punctuals = packPunctuals(scene, lights);
     data.lightTree = packLightTree(lights.tree, scene.bounds.radius());

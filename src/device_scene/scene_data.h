@@ -20,6 +20,7 @@ struct SceneData {
     std::vector<TriangleRecord> triangles; // in the scene's numbering
     std::vector<TriangleNormals> normals;
     std::vector<MaterialRecord> materials;
+    std::vector<SolidRecord> solids; // and before them the space outside
     std::vector<LightRecord> lights; // emissive triangles by their numbers in the scene, not by records
     std::vector<PunctualRecord> punctuals;
     std::vector<LightTreeRecord> lightTree;

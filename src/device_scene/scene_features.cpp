@@ -5,6 +5,7 @@
 
 #include "device_scene/gpu_textures.h"
 #include "scene/coverage.h"
+#include "scene/solids.h"
 #include "shared/frame.h"
 #include "shared/scene.h"
 
@@ -58,15 +59,6 @@ SceneFeatures extendedLobesOf(const Material& material) {
     return features;
 }
 
-Bounds boundsOf(const Mesh& mesh) {
-    Bounds bounds{mesh.positions.front(), mesh.positions.front()};
-    for (const glm::vec3& position : mesh.positions) {
-        bounds.lower = glm::min(bounds.lower, position);
-        bounds.upper = glm::max(bounds.upper, position);
-    }
-    return bounds;
-}
-
 bool attenuates(const Material& material) {
     return boundsSolid(material) && material.attenuationDistance < kNoAttenuation &&
            material.attenuationColor != glm::vec3(1.0f);
@@ -84,8 +76,35 @@ SceneFeatures featuresOf(const Material& material) {
     features |= textureSlots(material) != 0 ? kFeatureTextures : 0u;
     features |= wantsTangents(material) ? kFeatureTangents : 0u;
     features |= material.isUnlit ? kFeatureUnlit : 0u;
-    features |= attenuates(material) ? kFeatureAttenuation : 0u;
     return features;
+}
+
+// Whether the extent along some axis comes near the offset by which rays start off surfaces: a bound on the
+// rounding of coordinates (shaders/lib/math/ray_offset.glsl).
+bool isThinForItsPlace(const Solid& solid) {
+    constexpr float kOffset = 1e-6f; // of a coordinate
+    const glm::vec3 extent = solid.bounds.upper - solid.bounds.lower;
+    const glm::vec3 largest = glm::max(glm::abs(solid.bounds.lower), glm::abs(solid.bounds.upper));
+    return std::min({extent.x, extent.y, extent.z}) <
+           100.0f * kOffset * std::max({largest.x, largest.y, largest.z});
+}
+
+// Whether the bounds of any two have a point in common, or nearly.
+bool anyTouch(const std::vector<Solid>& solids) {
+    std::vector<Bounds> boxes;
+    for (const Solid& solid : solids) {
+        const glm::vec3 largest = glm::max(glm::abs(solid.bounds.lower), glm::abs(solid.bounds.upper));
+        const float margin = 1e-5f * std::max({largest.x, largest.y, largest.z});
+        boxes.push_back({solid.bounds.lower - margin, solid.bounds.upper + margin});
+    }
+    std::sort(boxes.begin(), boxes.end(),
+              [](const Bounds& a, const Bounds& b) { return a.lower.x < b.lower.x; });
+    for (size_t i = 0; i < boxes.size(); ++i)
+        for (size_t j = i + 1; j < boxes.size() && boxes[j].lower.x < boxes[i].upper.x; ++j)
+            if (glm::all(glm::lessThan(glm::max(boxes[i].lower, boxes[j].lower),
+                                       glm::min(boxes[i].upper, boxes[j].upper))))
+                return true;
+    return false;
 }
 
 SceneFeatures featuresOf(const Mesh& mesh) {
@@ -103,30 +122,21 @@ SceneFeatures featuresOfPunctuals(const Scene& scene, const Lights& lights) {
 
 } // namespace
 
-bool boundsSolid(const Material& material) {
-    return material.isSolid && (material.transmission > 0.0f || material.diffuseTransmission > 0.0f);
-}
-
-bool solidsMayOverlap(const Scene& scene) {
-    std::vector<Bounds> boxes;
-    for (const Mesh& mesh : scene.meshes)
-        if (boundsSolid(scene.materials[mesh.material]) && !mesh.positions.empty())
-            boxes.push_back(boundsOf(mesh));
-    std::sort(boxes.begin(), boxes.end(),
-              [](const Bounds& a, const Bounds& b) { return a.lower.x < b.lower.x; });
-    for (size_t i = 0; i < boxes.size(); ++i)
-        for (size_t j = i + 1; j < boxes.size() && boxes[j].lower.x < boxes[i].upper.x; ++j)
-            if (glm::all(glm::lessThan(glm::max(boxes[i].lower, boxes[j].lower),
-                                       glm::min(boxes[i].upper, boxes[j].upper))))
-                return true;
-    return false;
+bool wantsInteriorLists(const Scene& scene) {
+    const auto fills = [&](const Solid& solid) {
+        return attenuates(scene.materials[scene.meshes[solid.mesh].material]);
+    };
+    return std::any_of(scene.solids.begin(), scene.solids.end(), fills) ||
+           std::any_of(scene.solids.begin(), scene.solids.end(), isThinForItsPlace) || anyTouch(scene.solids);
 }
 
 SceneFeatures sceneFeatures(const Scene& scene, const Lights& lights) {
     SceneFeatures features = 0;
     std::vector<bool> isWorn(scene.materials.size(), false);
     for (const Mesh& mesh : scene.meshes) {
+        const Material& material = scene.materials[mesh.material];
         features |= featuresOf(mesh);
+        features |= mesh.solid == 0 && attenuates(material) ? kFeatureAttenuation : 0u;
         isWorn[mesh.material] = true;
     }
     for (size_t i = 0; i < scene.materials.size(); ++i)
@@ -135,7 +145,7 @@ SceneFeatures sceneFeatures(const Scene& scene, const Lights& lights) {
     features |=
         std::find(transparent.begin(), transparent.end(), true) != transparent.end() ? kFeatureAlpha : 0u;
     features |= scene.triangleCount() >= kManyTriangles ? kFeatureManyTriangles : 0u;
-    features |= solidsMayOverlap(scene) ? kFeatureSolids : 0u;
+    features |= wantsInteriorLists(scene) ? kFeatureSolids : 0u;
     features |= lights.emitters.list.empty() ? 0u : kFeatureTriangleLights;
     features |= featuresOfPunctuals(scene, lights);
     if (lights.environmentRadiance != glm::vec3(0.0f))

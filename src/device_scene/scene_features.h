@@ -12,11 +12,9 @@ namespace lavalight {
 
 // The scene's kFeature... bits (shaders/shared/features.h). `lights`: those of the scene that have power.
 [[nodiscard]] SceneFeatures sceneFeatures(const Scene& scene, const Lights& lights);
-// Whether light passes through surfaces of the material to the inside of a volume.
-[[nodiscard]] bool boundsSolid(const Material& material);
-// Whether the bounding boxes of two meshes of such materials have a common
-// inside.
-[[nodiscard]] bool solidsMayOverlap(const Scene& scene);
+// Whether paths have to know which solids they are in: where these attenuate, overlap or touch, or are thin
+// for their distance from the origin. Elsewhere the side of a surface tells all that matters.
+[[nodiscard]] bool wantsInteriorLists(const Scene& scene);
 // The bits that the camera adds.
 [[nodiscard]] SceneFeatures cameraFeatures(const Camera& camera);
 

@@ -9,11 +9,9 @@ std::vector<LedgerEntry> tallyEntries(const FilmTallies& tallies) {
     if (tallies.cutPaths > 0)
         ledger.push_back({"cut-paths", fmt::format("{} paths ended by --max-bounces, mean throughput {:.4g}",
                                                    tallies.cutPaths, tallies.cutThroughput)});
-    if (tallies.overlaps > 0)
-        ledger.push_back(
-            {"overlapping-solids",
-             fmt::format("{} paths were within two solids at once, where neither medium is right",
-                         tallies.overlaps)});
+    if (tallies.crowdedPaths > 0)
+        ledger.push_back({"crowded-solids", fmt::format("{} paths were within more than {} solids at once",
+                                                        tallies.crowdedPaths, kMostNestedSolids)});
     if (tallies.droppedSamples > 0)
         ledger.push_back(
             {"dropped-samples", fmt::format("{} samples were not finite", tallies.droppedSamples)});

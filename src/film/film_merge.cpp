@@ -38,7 +38,7 @@ void requireOneImage(const NamedFilm& a, const NamedFilm& b) {
 
 // The ledger's words come from the settings, and from the tallies of all samples.
 std::string joinedLedger(const FilmFile& file) {
-    const std::string ofSettings = valueOf(file.metadata, kSettingsLedger);
+    std::string ofSettings = valueOf(file.metadata, kSettingsLedger);
     const std::vector<LedgerEntry> entries = tallyEntries(readable(file.film.tallies));
     if (entries.empty())
         return ofSettings;

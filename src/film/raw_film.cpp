@@ -89,9 +89,8 @@ FilmTallies readable(const RawTallies& counts) {
     tallies.cutPaths = counts[kTallyCutPaths];
     const double throughput = static_cast<double>(counts[kTallyCutThroughput]) / 65536.0;
     tallies.cutThroughput = tallies.cutPaths > 0 ? throughput / static_cast<double>(tallies.cutPaths) : 0.0;
-    tallies.overlaps = counts[kTallyOverlaps];
-    const auto pair = static_cast<uint32_t>(counts[kTallyOverlapPair]);
-    tallies.overlapping = {pair >> 16, pair & 0xffffu};
+    tallies.crowdedPaths = counts[kTallyCrowded];
+    tallies.crowdedSolid = static_cast<uint32_t>(counts[kTallyCrowdedSolid]);
     tallies.negativeSamples = counts[kTallyNegative];
     tallies.limitedValues = counts[kTallyLimited];
     return tallies;
@@ -104,10 +103,10 @@ void add(RawFilm& sum, const RawFilm& more) {
         saturated += addNumbers(sum, more, number);
     for (size_t i = sum.layout.countWord() * sum.pixels(); i < sum.words.size(); ++i)
         sum.words[i] += more.words[i];
-    const uint64_t pair = std::max(sum.tallies[kTallyOverlapPair], more.tallies[kTallyOverlapPair]);
+    const uint64_t solid = std::max(sum.tallies[kTallyCrowdedSolid], more.tallies[kTallyCrowdedSolid]);
     for (size_t i = 0; i < kTallyCount; ++i)
         sum.tallies[i] += more.tallies[i];
-    sum.tallies[kTallyOverlapPair] = pair;    // the kernels keep the greatest
+    sum.tallies[kTallyCrowdedSolid] = solid;  // the kernels keep the greatest
     sum.tallies[kTallySaturated] = saturated; // the two films may share saturated sums
 }
 

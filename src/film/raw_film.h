@@ -10,18 +10,23 @@
 #include "film/film_layout.h"
 #include "image/rendering.h"
 #include "shared/film.h"
+#include "shared/interior_list.h"
 
 namespace lavalight {
+
+// Solids that a path keeps count of at a time.
+constexpr uint32_t kMostNestedSolids = kInteriorEntries;
+// The number that all solids from there on have in the kernels.
+constexpr uint32_t kUnnamedSolid = kLastSolid;
 
 // Events that the ledger reports, counted by the kernels.
 struct FilmTallies {
     uint64_t droppedSamples = 0; // NaN or infinity
     uint64_t saturatedSums = 0;
-    uint64_t cutPaths = 0;      // ended by --max-bounces while they carried light
-    double cutThroughput = 0.0; // mean over the cut paths
-    uint64_t overlaps = 0;      // paths within two solids at once
-    std::array<uint32_t, 2>
-        overlapping{};            // meshes of two such solids, counted from 1; 65535: there or beyond
+    uint64_t cutPaths = 0;        // ended by --max-bounces while they carried light
+    double cutThroughput = 0.0;   // mean over the cut paths
+    uint64_t crowdedPaths = 0;    // within more solids at once than a path keeps count of
+    uint32_t crowdedSolid = 0;    // number of one of these
     uint64_t negativeSamples = 0; // below 0 in a plane without sign, where they counted as 0
     uint64_t limitedValues = 0;   // values limited to the film's range in planes with sign
 };

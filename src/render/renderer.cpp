@@ -1,6 +1,7 @@
 #include "render/renderer.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <future>
@@ -12,7 +13,9 @@
 #include "device_scene/scene_features.h"
 #include "render/wave_budget.h"
 #include "scene/clipping.h"
+#include "scene/starting_solids.h"
 #include "scene/view_extent.h"
+#include "shared/interior_list.h"
 #include "shared/scene.h"
 
 namespace lavalight {
@@ -67,6 +70,29 @@ RenderSettings resolveSchedule(RenderSettings settings, bool isCpu) {
     return settings;
 }
 
+namespace {
+
+// In the layout of shaders/shared/interior_list.h. Of more solids than fit, the last have no room.
+void setStart(const StartingSolids& starting, FrameParameters& frame) {
+    std::array<uint32_t, kInteriorEntries> entries{};
+    const size_t fitting = std::min(starting.around.size(), entries.size());
+    for (size_t i = 0; i < fitting; ++i)
+        entries[i] = std::min(starting.around[i], kLastSolid);
+    const size_t without = std::min<size_t>(starting.around.size() - fitting, kInteriorOverflowMask);
+    frame.startReference = starting.reference;
+    frame.startOuter = entries[0] | entries[1] << 16u;
+    frame.startInner = entries[2] | entries[3] << 16u;
+    frame.startNotes = static_cast<uint32_t>(without) | (without > 0 ? kInteriorWasCrowded : 0u);
+    frame.startsVary = starting.vary ? 1u : 0u;
+}
+
+// What the camera adds to the features of the scene.
+SceneFeatures viewFeatures(const Camera& camera, const FrameParameters& frame) {
+    return cameraFeatures(camera) | (frame.startsVary != 0 ? kFeatureStartsVary : 0u);
+}
+
+} // namespace
+
 FrameParameters makeFrame(const Scene& scene, const Camera& camera, const RenderSettings& settings) {
     const ViewExtent view = viewExtent(camera, static_cast<float>(settings.image.width),
                                        static_cast<float>(settings.image.height));
@@ -93,6 +119,7 @@ FrameParameters makeFrame(const Scene& scene, const Camera& camera, const Render
     frame.rouletteProbability = settings.estimator.rouletteProbability;
     frame.clampIndirect = settings.estimator.clampIndirect;
     frame.waveSize = settings.work.waveSize;
+    setStart(startingSolids(scene, camera, view, clip.nearest), frame);
     return frame;
 }
 
@@ -145,7 +172,7 @@ struct Renderer::Setup {
             std::async(std::launch::async, [&] { return packScene(scene, lights); });
         FrameParameters frame = makeFrame(scene, camera, settings);
         setLights(frame, lights);
-        EstimatorKernels kernels = makeKernels(sceneFeatures(scene, lights) | cameraFeatures(camera));
+        EstimatorKernels kernels = makeKernels(sceneFeatures(scene, lights) | viewFeatures(camera, frame));
         return {frame, std::move(kernels), packed.get(), lights.selection};
     }
 };
@@ -230,7 +257,7 @@ void Renderer::restart(const Scene& scene, const Camera& camera, const RenderSet
     fresh.settings.estimator.lightSelection = settings_.estimator.lightSelection;
     fresh.frame = makeFrame(scene, camera, fresh.settings);
     copyLights(frame_, fresh.frame);
-    const SceneFeatures features = sceneFeatures_ | cameraFeatures(camera);
+    const SceneFeatures features = sceneFeatures_ | viewFeatures(camera, fresh.frame);
     const EstimatorSettings& estimator = fresh.settings.estimator;
     const std::vector<std::string_view> names = kernelNames(fresh.settings);
     if (!kernels_.serve(names, estimator, features))

@@ -117,6 +117,7 @@ struct Mesh {
     // tangentFrames() (scene/tangents.h) after the first, empty where the mesh lacks the coordinates. None:
     // those above serve all.
     std::vector<std::vector<glm::vec4>> furtherTangents{};
+    uint32_t solid = 0; // solid that it bounds, or helps to: 1 + an index into Scene::solids; 0: none
 };
 
 // A panorama shows all directions, by the convention of environment maps.
@@ -181,6 +182,12 @@ struct Bounds {
     [[nodiscard]] float radius() const { return 0.5f * glm::length(upper - lower); }
 };
 
+// A closed body with an inside (KHR_materials_volume).
+struct Solid {
+    uint32_t mesh = 0; // the first of the meshes that bound it, whose material says what it is filled with
+    Bounds bounds;
+};
+
 // The most triangles of a scene: three 16-byte texels each must fit into a texel buffer.
 constexpr uint64_t kMostTriangles = kMostTexels / 3;
 
@@ -191,8 +198,18 @@ constexpr uint64_t kMostPictureBytes = kMostTexels * 16;
 // stay finite in single precision.
 constexpr float kLargestPosition = 1e18f;
 
+// Geometry that is small for where it lies. Metres.
+struct CoarseGeometry {
+    double distance = 0.0;   // from the scene's origin
+    double resolution = 0.0; // steps of coordinates there
+    double size = 0.0;       // what is resolved by them
+};
+
 struct Scene {
     std::string source; // file or built-in name
+    // Where (0, 0, 0) of everything below lies in the file's world. All that people read or write of places
+    // is in the world's coordinates.
+    glm::dvec3 origin{0.0};
     std::vector<Mesh> meshes;
     std::vector<Material> materials; // never empty: meshes without one use a default material
     std::vector<Picture> pictures;
@@ -203,7 +220,10 @@ struct Scene {
     glm::vec3 environment{0.0f};                  // constant radiance from every direction that hits nothing
     std::optional<EnvironmentMap> environmentMap; // instead of it
     Bounds bounds;
-    std::vector<std::string> warnings;          // what was not understood, one line each, with names
+    std::vector<Solid> solids;            // findSolids() fills this and the next; the smallest bounds first
+    std::vector<std::string> openSolids;  // names of meshes that ought to bound a body and do not
+    std::optional<CoarseGeometry> coarse; // the worst of it, if there is any; it enters the bias ledger
+    std::vector<std::string> warnings;    // what was not understood, one line each, with names
     std::vector<std::string> ignoredExtensions; // exact names; they enter the bias ledger
     std::vector<std::string> extensionsUsed;    // exact names as the file lists them
     std::vector<std::string> variants;          // names of the material variants

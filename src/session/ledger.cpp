@@ -29,8 +29,16 @@ std::vector<LedgerEntry> makeLedger(const Scene& scene, const RenderSettings& se
             {"environment-values",
              fmt::format("{} texels of the environment map were negative or not finite, and are 0",
                          scene.environmentMap->badTexels)});
+    if (scene.coarse)
+        ledger.push_back({"coarse-geometry",
+                          fmt::format("positions {:.3g} m from the scene's origin are rounded to steps of "
+                                      "{:.3g} m, where something is {:.3g} m wide",
+                                      scene.coarse->distance, scene.coarse->resolution, scene.coarse->size)});
     if (!scene.ignoredExtensions.empty())
         ledger.push_back({"ignored-extensions", fmt::format("{}", fmt::join(scene.ignoredExtensions, ", "))});
+    if (!scene.openSolids.empty())
+        ledger.push_back({"open-solids", fmt::format("{} (KHR_materials_volume) bound no body",
+                                                     fmt::join(scene.openSolids, ", "))});
     for (LedgerEntry& entry : tallyEntries(tallies))
         ledger.push_back(std::move(entry));
     return ledger;
@@ -39,20 +47,18 @@ std::vector<LedgerEntry> makeLedger(const Scene& scene, const RenderSettings& se
 namespace {
 
 std::string nameOfSolid(const Scene& scene, uint32_t number) {
-    constexpr uint32_t kBeyond = 0xffffu;
-    return number > 0 && number < kBeyond && number <= scene.meshes.size()
-               ? fmt::format("\"{}\"", scene.meshes[number - 1].name)
+    return number > 0 && number < kUnnamedSolid && number <= scene.solids.size()
+               ? fmt::format("\"{}\"", scene.meshes[scene.solids[number - 1].mesh].name)
                : "a mesh";
 }
 
 } // namespace
 
-std::string overlapText(const Scene& scene, const FilmTallies& tallies) {
+std::string crowdedText(const Scene& scene, const FilmTallies& tallies) {
     return fmt::format(
-        "{} and {} overlap, or have holes (KHR_materials_volume): {} paths were within two such solids at "
-        "once, where neither medium is right; let solids touch, or leave a gap between them",
-        nameOfSolid(scene, tallies.overlapping[0]), nameOfSolid(scene, tallies.overlapping[1]),
-        tallies.overlaps);
+        "{} lies within more than {} solids at once (KHR_materials_volume), where {} paths did "
+        "not know their medium; let fewer solids overlap",
+        nameOfSolid(scene, tallies.crowdedSolid), kMostNestedSolids, tallies.crowdedPaths);
 }
 
 } // namespace lavalight

@@ -16,7 +16,7 @@ namespace lavalight {
 [[nodiscard]] std::vector<LedgerEntry> makeLedger(const Scene& scene, const RenderSettings& settings,
                                                   const FilmTallies& tallies, StopReason stop);
 
-// The warning that goes with overlapping solids, with the names of two of the meshes.
-[[nodiscard]] std::string overlapText(const Scene& scene, const FilmTallies& tallies);
+// The warning that goes with more solids in one place than a path keeps count of, with the name of one.
+[[nodiscard]] std::string crowdedText(const Scene& scene, const FilmTallies& tallies);
 
 } // namespace lavalight

@@ -18,10 +18,10 @@
 namespace lavalight {
 namespace {
 
-void warnOfOverlaps(RenderReport& report, const Scene& scene) {
-    if (report.tallies.overlaps == 0)
+void warnOfCrowding(RenderReport& report, const Scene& scene) {
+    if (report.tallies.crowdedPaths == 0)
         return;
-    report.warnings.push_back(overlapText(scene, report.tallies));
+    report.warnings.push_back(crowdedText(scene, report.tallies));
     spdlog::warn("{}", report.warnings.back());
 }
 
@@ -91,7 +91,7 @@ void writeOutputs(RenderJob& job, const Outputs& outputs, const OutputStyle& sty
     RenderReport& report = job.report;
     const Rendering rendering = job.renderer->rendering();
     fillResults(report, *job.renderer, *job.device, rendering, job.scene);
-    warnOfOverlaps(report, job.scene);
+    warnOfCrowding(report, job.scene);
     report.rays = report.rays + job.before.rays;
     if (!outputs.exr.empty() && style.keepsFilm)
         writeFilmFile(outputs.exr, job.film());

@@ -126,7 +126,7 @@ TEST_F(Info, TheTextNamesEveryFigureOfTheJson) {
     const ProgramResult result = run({"info", "cornell-box"});
     EXPECT_EQ(result.exitCode, 0) << result.err;
     for (const char* word : {"triangles", "emissive triangles", "meshes", "materials", "camera", "bounds",
-                             "geometry memory", "extensions used", "extensions ignored"})
+                             "geometry memory", "solids", "extensions used", "extensions ignored"})
         EXPECT_NE(result.out.find(word), std::string::npos) << word;
 }
 

@@ -14,12 +14,11 @@
 namespace lavalight::test {
 namespace {
 
-// A scene, samples (see expectOneMean), and the share of its tiles that at least must count for each variant,
-// or the test would say nothing. BrokenEstimatorTest shows that 1024 samples notice 5 % of the direct light.
+// A scene, and how much is done to find a bias. BrokenEstimatorTest shows that 1024 samples notice 5 % of the
+// direct light.
 struct Subject {
     const char* name;
-    uint32_t samples;
-    double leastShare;
+    MeanEffort effort;
 };
 
 std::ostream& operator<<(std::ostream& out, const Subject& subject) {
@@ -30,21 +29,20 @@ class EstimatorTest : public DeviceTest, public testing::WithParamInterface<Subj
 
 TEST_P(EstimatorTest, EverySettingHasTheMeanOfTheDefault) {
     const std::string scene = GetParam().name;
-    expectOneMean(device(), loadScene(scene), answerable(scene, singleVariants()), GetParam().samples,
-                  GetParam().leastShare);
+    expectOneMean(device(), loadScene(scene), answerable(scene, singleVariants()), GetParam().effort);
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, EstimatorTest,
-                         testing::Values(Subject{"cornell-box", 1024, 0.5},
-                                         Subject{"cornell-glass", 1024, 0.5}, Subject{"veach-mis", 1024, 0.1},
-                                         Subject{"many-lights", 1024, 0.1}, Subject{"furnace", 1024, 0.5},
-                                         Subject{"large-small-light", 1024, 0.1},
-                                         Subject{"glass-caustic", 1024, 0.1}),
-                         [](const auto& subject) {
-                             std::string name = subject.param.name;
-                             std::replace(name.begin(), name.end(), '-', '_');
-                             return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    Scenes, EstimatorTest,
+    testing::Values(Subject{"cornell-box", {1024, 0.5}}, Subject{"cornell-glass", {1024, 0.5}},
+                    Subject{"veach-mis", {1024, 0.1}}, Subject{"many-lights", {1024, 0.1}},
+                    Subject{"furnace", {1024, 0.5}}, Subject{"large-small-light", {1024, 0.1}},
+                    Subject{"glass-caustic", {1024, 0.1}}, Subject{"nested-glass", {512, 0.3, 12}}),
+    [](const auto& subject) {
+        std::string name = subject.param.name;
+        std::replace(name.begin(), name.end(), '-', '_');
+        return name;
+    });
 
 // Metal and glossy dielectric under two lights of unequal size: weights between lobes and light samples
 // matter.
@@ -132,12 +130,12 @@ TEST_P(MaterialsTest, EverySettingHasTheMeanOfTheDefault) {
     scene.punctualLights.push_back(lamp);
     std::vector<Variant> variants = singleVariants();
     std::erase_if(variants, [](const Variant& v) { return !v.settings.nextEventEstimation; });
-    expectOneMean(device(), scene, variants, GetParam().samples, GetParam().leastShare);
+    expectOneMean(device(), scene, variants, GetParam().effort);
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, MaterialsTest,
-                         testing::Values(Subject{"glossy", 512, 0.5}, Subject{"glass", 512, 0.5},
-                                         Subject{"layered", 512, 0.5}),
+                         testing::Values(Subject{"glossy", {512, 0.5}}, Subject{"glass", {512, 0.5}},
+                                         Subject{"layered", {512, 0.5}}),
                          [](const auto& subject) { return std::string(subject.param.name); });
 
 } // namespace

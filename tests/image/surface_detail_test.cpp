@@ -227,7 +227,7 @@ TEST_F(SurfaceDetail, LightsAreFoundAlikeBySamplingAndByHittingUnderTexturedLamp
         return v.settings.roulette != EstimatorSettings{}.roulette ||
                v.settings.hemisphere != Hemisphere::cosine;
     });
-    expectOneMean(device(), texturedLamps(), variants, 512, 0.3);
+    expectOneMean(device(), texturedLamps(), variants, {512, 0.3});
 }
 
 } // namespace

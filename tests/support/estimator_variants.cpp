@@ -16,7 +16,6 @@ namespace lavalight::test {
 namespace {
 
 constexpr uint32_t kSide = 32;
-constexpr uint32_t kMaxBounces = 4; // for every render: without roulette, paths would run on to 64
 
 // One value of one setting, which is not the default.
 struct Change {
@@ -64,10 +63,10 @@ bool isPermitted(const Variant& variant) {
 }
 
 Rendering render(gpu::Device& device, const Scene& scene, const EstimatorSettings& estimator,
-                 uint32_t samples) {
-    RenderSettings settings = imageSettings(kSide, kSide, samples);
+                 const MeanEffort& effort) {
+    RenderSettings settings = imageSettings(kSide, kSide, effort.samples);
     settings.estimator = estimator;
-    settings.estimator.maxBounces = kMaxBounces;
+    settings.estimator.maxBounces = effort.maxBounces;
     const RenderResult result = renderScene(device, scene, settings);
     EXPECT_EQ(result.tallies.droppedSamples, 0u);
     return result.rendering;
@@ -124,13 +123,18 @@ std::vector<Variant> answerable(const std::string& scene, std::vector<Variant> v
 }
 
 void expectOneMean(gpu::Device& device, const Scene& scene, const std::vector<Variant>& variants,
-                   uint32_t samples, double leastShare) {
-    const Rendering expected = render(device, scene, defaultVariant().settings, 2 * samples);
+                   const MeanEffort& effort) {
+    const auto times = [&](uint32_t factor) {
+        MeanEffort more = effort;
+        more.samples *= factor;
+        return more;
+    };
+    const Rendering expected = render(device, scene, defaultVariant().settings, times(2));
     for (const Variant& variant : variants) {
-        const Rendering image = render(device, scene, variant.settings, variant.effort * samples);
+        const Rendering image = render(device, scene, variant.settings, times(variant.effort));
         const MeanComparison comparison = compareMeans(image, expected);
         std::cout << variant.name << ": " << comparison.text() << std::endl;
-        EXPECT_GE(comparison.share, leastShare) << variant.name << ": too noisy to say anything";
+        EXPECT_GE(comparison.share, effort.leastShare) << variant.name << ": too noisy to say anything";
         EXPECT_TRUE(comparison.same())
             << variant.name << ": " << comparison.text() << "; difference times 10: "
             << writeDifference(image.radiance(), expected.radiance(), 10.0f, "estimator");

@@ -33,10 +33,16 @@ struct Variant {
 // Veach's plates, whose mirror-like highlights they find so seldom that neither mean nor variance shows it.
 [[nodiscard]] std::vector<Variant> answerable(const std::string& scene, std::vector<Variant> variants);
 
+struct MeanEffort {
+    uint32_t samples = 0;
+    double leastShare = 0.0; // of the tiles that must be precise enough to tell two means apart
+    uint32_t maxBounces = 4; // for every render: without roulette, paths would run on to 64
+};
+
 // Renders each variant with so many samples times its effort, 32 x 32 pixels, and the default with twice as
-// many, whose noise counts in every comparison. Fails where a variant has another mean, or where fewer than
-// leastShare of the tiles are precise enough to say so. Prints a line for each variant.
+// many, whose noise counts in every comparison. Fails where a variant has another mean, or where too few
+// tiles would show it. Prints a line for each variant.
 void expectOneMean(gpu::Device& device, const Scene& scene, const std::vector<Variant>& variants,
-                   uint32_t samples, double leastShare);
+                   const MeanEffort& effort);
 
 } // namespace lavalight::test

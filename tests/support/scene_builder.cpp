@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "scene/solids.h"
+
 namespace lavalight::test {
 namespace {
 
@@ -135,6 +137,7 @@ Scene SceneBuilder::build() const {
             scene.bounds.lower = glm::min(scene.bounds.lower, position);
             scene.bounds.upper = glm::max(scene.bounds.upper, position);
         }
+    findSolids(scene);
     return scene;
 }
 

@@ -36,3 +36,9 @@ vec3 offsetOrigin(vec3 p, vec3 error, vec3 ng, vec3 direction) {
     const vec3 moved = p + offset;
     return vec3(nextFloat(moved.x, offset.x), nextFloat(moved.y, offset.y), nextFloat(moved.z, offset.z));
 }
+
+// Distance from a hit point, in metres, within which another surface may be the same one but for rounding: three units in the
+// last place of the largest coordinate. A pane that is thicker has two sides.
+float nearbyDistance(vec3 error) {
+    return 0.375 * max(error.x, max(error.y, error.z));
+}

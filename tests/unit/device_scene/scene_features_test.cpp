@@ -150,25 +150,28 @@ TEST(SceneFeatures, OnlySolidGlassDisperses) {
     EXPECT_EQ(featuresOf(glass), kFeatureGlass | kFeatureRoughLobes | kFeatureDispersion);
 }
 
-TEST(SceneFeatures, SolidsMayOverlapWhereTheirBoxesDo) {
+TEST(SceneFeatures, ListsOfSolidsAreKeptWhereTheyMatter) {
     Material glass = lambert();
     glass.isSolid = true;
-    glass.diffuseTransmission = 0.5f;
-    Scene scene;
-    scene.materials = {lambert(), glass};
-    const auto addBox = [&](uint32_t material, float from, float to) {
-        Mesh mesh;
-        mesh.material = material;
-        mesh.positions = {glm::vec3(from), glm::vec3(to)};
-        scene.meshes.push_back(mesh);
+    glass.transmission = 1.0f;
+    const auto wants = [](Material material, std::initializer_list<Bounds> boxes) {
+        Scene scene;
+        scene.materials = {material};
+        for (const Bounds& box : boxes) {
+            scene.solids.push_back({static_cast<uint32_t>(scene.meshes.size()), box});
+            scene.meshes.emplace_back().solid = static_cast<uint32_t>(scene.solids.size());
+        }
+        return wantsInteriorLists(scene);
     };
-    addBox(1, 0.0f, 1.0f);
-    addBox(1, 1.0f, 2.0f); // a solid that touches it
-    addBox(0, 0.5f, 1.5f); // no solid
-    EXPECT_FALSE(solidsMayOverlap(scene));
-    addBox(1, 1.75f, 3.0f);
-    EXPECT_TRUE(solidsMayOverlap(scene));
-    EXPECT_EQ(featuresOf(scene) & kFeatureSolids, kFeatureSolids);
+    const auto box = [](float from, float to) { return Bounds{glm::vec3(from), glm::vec3(to)}; };
+    EXPECT_FALSE(wants(glass, {box(0, 1), box(1.01f, 2)}));
+    EXPECT_TRUE(wants(glass, {box(0, 1), box(1, 2)})) << "they touch";
+    EXPECT_TRUE(wants(glass, {box(0, 1), box(3, 4), box(0.5f, 2)}));
+    EXPECT_TRUE(wants(glass, {box(1000, 1000.001f)})) << "thin for its place";
+    glass.attenuationColor = glm::vec3(0.5f);
+    glass.attenuationDistance = 1.0f;
+    EXPECT_TRUE(wants(glass, {box(0, 1)}));
+    EXPECT_FALSE(wants(glass, {}));
 }
 
 TEST(SceneFeatures, LightsAndNormalsAreNamed) {

@@ -66,18 +66,18 @@ TEST(RawFilm, ASumSaturatedInBothFilmsIsOneSum) {
 TEST(RawFilm, CountsAndTalliesAddUp) {
     RawFilm a = emptyFilm();
     a.words[kCountWord] = 3;
-    a.tallies = {1, 0, 2, 65536, 5, 0x20003, 7, 1};
+    a.tallies = {1, 0, 2, 65536, 5, 3, 7, 1};
     RawFilm b = emptyFilm();
     b.words[kCountWord] = 4;
-    b.tallies = {10, 0, 2, 3 * 65536, 6, 0x20001, 70, 10};
+    b.tallies = {10, 0, 2, 3 * 65536, 6, 2, 70, 10};
     add(a, b);
     EXPECT_EQ(a.words[kCountWord], 7u);
     const FilmTallies tallies = readable(a.tallies);
     EXPECT_EQ(tallies.droppedSamples, 11u);
     EXPECT_EQ(tallies.cutPaths, 4u);
     EXPECT_EQ(tallies.cutThroughput, 1.0); // the mean of both, by their paths
-    EXPECT_EQ(tallies.overlaps, 11u);
-    EXPECT_EQ(tallies.overlapping, (std::array<uint32_t, 2>{2, 3})); // one pair of them
+    EXPECT_EQ(tallies.crowdedPaths, 11u);
+    EXPECT_EQ(tallies.crowdedSolid, 3u); // one of them
     EXPECT_EQ(tallies.negativeSamples, 77u);
     EXPECT_EQ(tallies.limitedValues, 11u);
 }

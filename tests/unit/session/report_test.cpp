@@ -24,22 +24,27 @@ TEST(Ledger, UnbiasedImageHasNoEntry) {
 TEST(Ledger, NamesEveryCauseWithItsFigures) {
     Scene scene;
     scene.ignoredExtensions = {"KHR_a", "EXT_b"};
+    scene.coarse = {.distance = 1e7, .resolution = 1.0, .size = 2.0};
     scene.meshes.resize(2);
     scene.meshes[1].name = "ice";
-    const FilmTallies tallies{11, 22, 33, 0.25, 44, {2, 65535}, 55, 66};
+    scene.solids = {{1, {}}};
+    scene.openSolids = {"wax", "pond"};
+    const FilmTallies tallies{11, 22, 33, 0.25, 44, 1, 55, 66};
     const auto ledger = makeLedger(scene, RenderSettings(), tallies, StopReason::samples);
-    ASSERT_EQ(ledger.size(), 7u);
+    ASSERT_EQ(ledger.size(), 8u);
     const std::map<std::string, std::string> figures{{"dropped-samples", "11"},
                                                      {"saturated-sums", "22"},
                                                      {"cut-paths", "33"},
-                                                     {"overlapping-solids", "44 paths"},
+                                                     {"crowded-solids", "44 paths"},
+                                                     {"open-solids", "wax, pond"},
                                                      {"negative-samples", "55 samples were negative"},
                                                      {"limited-values", "66 values"},
-                                                     {"ignored-extensions", "KHR_a, EXT_b"}};
+                                                     {"ignored-extensions", "KHR_a, EXT_b"},
+                                                     {"coarse-geometry", "steps of 1 m"}};
     for (const LedgerEntry& entry : ledger)
         EXPECT_NE(entry.detail.find(figures.at(entry.cause)), std::string::npos)
             << entry.cause << ": " << entry.detail;
-    EXPECT_TRUE(overlapText(scene, tallies).starts_with("\"ice\" and a mesh overlap"));
+    EXPECT_TRUE(crowdedText(scene, tallies).starts_with("\"ice\" lies within"));
     const std::string text = ledgerText(ledger);
     EXPECT_NE(text.find("0.25"), std::string::npos) << text;
     EXPECT_NE(text.find("; "), std::string::npos) << text;
