@@ -136,6 +136,51 @@ TEST_F(FarFromOrigin, PlacesOfOptionsAndResultsAreTheWorlds) {
     EXPECT_NEAR(position.at(1).get<double>(), 2e7 - 1.0, 1e-6) << position; // the floor
 }
 
+// An unlit tile that flies away from where the first frame's camera stands: by so far that the second frame
+// counts from elsewhere.
+TEST_F(FarFromOrigin, CameraThatStandsInForAnAnimationStaysWhileTheOriginMoves) {
+    GltfBuilder builder;
+    const int tile = builder.addMesh(
+        {{"attributes", {{"POSITION", builder.addVec3({{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}})}}},
+         {"material", 0}});
+    builder.json["materials"] = {{{"extensions", {{"KHR_materials_unlit", json::object()}}}}};
+    builder.addNode({{"mesh", tile}});
+    const int times = builder.addAccessor({{"bufferView", builder.addView<float>({0.0f, 1.0f})},
+                                           {"componentType", 5126},
+                                           {"count", 2},
+                                           {"type", "SCALAR"}});
+    const int places = builder.addVec3({{0, 0, 0}, {-60, -45, -100}}); // along the view
+    builder.json["animations"] = {
+        {{"samplers", {{{"input", times}, {"output", places}}}},
+         {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}}}}}};
+    const std::string scene = write(builder);
+    const auto meanOf = [&](Words words) {
+        for (const char* word : {"--env", "0,0,0", "--size", "128x128", "--spp", "16", "-o", "out.exr"})
+            words.emplace_back(word);
+        EXPECT_EQ(run(words).exitCode, 0);
+        const std::string file = words[2] == "--frames" ? "out_0001.exr" : "out.exr";
+        double sum = 0.0;
+        for (const glm::vec3& p : readExr(folder_ / file).radiance().pixels)
+            sum += p.g;
+        return sum;
+    };
+    const json first = json::parse(run({"info", scene, "--json"}).out);
+    EXPECT_EQ(first.at("origin"), json({0.0, 0.0, 0.0}));
+    EXPECT_NE(json::parse(run({"info", scene, "--at", "1", "--json"}).out).at("origin"), first.at("origin"));
+    const auto text = [](const json& p, const json& way) {
+        std::string words;
+        for (const size_t axis : {0, 1, 2})
+            words += std::to_string(p[axis].get<double>() + way[axis].get<double>()) + (axis < 2 ? "," : "");
+        return words;
+    };
+    const json& camera = first.at("cameras").at(0);
+    const double expected =
+        meanOf({"render", scene, "--at", "1", "--look-from", text(camera["position"], {0.0, 0.0, 0.0}),
+                "--look-at", text(camera["position"], camera["forward"])});
+    EXPECT_GT(expected, 1.0);
+    EXPECT_NEAR(meanOf({"render", scene, "--frames", "0:2", "--fps", "1"}), expected, 0.2 * expected);
+}
+
 // Two rooms 10,000 km apart: one of them is as good as alone, the other is told of and in the bias ledger.
 TEST_F(FarFromOrigin, WhatSinglePrecisionCannotHoldIsWarnedOfAndEntersTheLedger) {
     GltfBuilder builder = room();

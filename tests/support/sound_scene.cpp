@@ -105,6 +105,8 @@ std::string unsoundPart(const Scene& scene) {
         return "no camera, or no material";
     if (!isFinite(scene.bounds.lower) || !isFinite(scene.bounds.upper))
         return "bounds not finite";
+    if (!isFinite(glm::vec3(scene.origin)))
+        return "origin not finite";
     std::string finding;
     find(finding, "mesh", scene.meshes, [&](const Mesh& mesh) { return unsoundMesh(mesh, scene); });
     find(finding, "material", scene.materials,

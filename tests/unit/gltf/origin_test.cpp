@@ -40,7 +40,7 @@ void addViewAndLight(GltfBuilder& builder, std::optional<int> parent, const std:
     builder.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}}};
     Json node = {{"camera", 0},
                  {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}},
-                 {"translation", {place[0], place[1], place[2] + 3.0}}};
+                 {"translation", {place[0], place[1], place[2] + 3.1}}};
     const int number = builder.addNode(std::move(node));
     if (parent)
         builder.json["nodes"][static_cast<size_t>(*parent)]["children"].push_back(number);
@@ -66,8 +66,9 @@ void expectFine(const GltfBuilder& builder, const std::vector<glm::vec3>& corner
     for (size_t i = 0; i < 3; ++i)
         expectAt(inWorld(scene, scene.meshes[0].positions.at(i)), far + glm::dvec3(corners[i]), way);
     EXPECT_LT(glm::length(scene.meshes[0].positions[0]), 16.0f) << way;
-    expectAt(inWorld(scene, scene.cameras.at(0).position), far + glm::dvec3(0, 0, 3), way + ", camera");
-    expectAt(inWorld(scene, scene.punctualLights.at(0).position), far + glm::dvec3(0, 0, 3), way + ", lamp");
+    expectAt(inWorld(scene, scene.cameras.at(0).position), far + glm::dvec3(0, 0, 3.1), way + ", camera");
+    expectAt(inWorld(scene, scene.punctualLights.at(0).position), far + glm::dvec3(0, 0, 3.1),
+             way + ", lamp");
     EXPECT_FALSE(scene.coarse) << way;
     // Single precision has steps of 2 m for 20,000 km, which the file could not have but for whole metres.
     EXPECT_EQ(warningsWith(
