@@ -3,11 +3,14 @@
 
 #include <algorithm>
 #include <new>
+#include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "base/file.h"
+#include "base/named.h"
 #include "gltf/decode/accessor.h"
 #include "gltf/file/document.h"
 #include "gltf/read/camera.h"
@@ -18,6 +21,7 @@
 #include "gltf/read/pictures.h"
 #include "gltf/read/variants.h"
 #include "scene/framing_camera.h"
+#include "scene/scene_origin.h"
 #include "scene/solids.h"
 
 namespace lavalight {
@@ -66,6 +70,59 @@ void dropUnwornDefault(Scene& scene) {
         scene.materials.pop_back();
 }
 
+// What the scene will be seen from, unless that is a camera that stands in.
+std::optional<Viewpoint> shownFrom(const std::vector<PlacedCamera>& cameras, const ImportOptions& options,
+                                   const std::string& source) {
+    if (options.viewpoint)
+        return viewpointOf(Camera(), *options.viewpoint);
+    if (cameras.empty())
+        return std::nullopt;
+    std::vector<std::string> names;
+    for (const PlacedCamera& placed : cameras)
+        names.push_back(placed.camera.name);
+    const size_t shown =
+        options.camera.empty() ? 0 : findNamed(names, {options.camera, "--camera", "camera", source});
+    return viewpointOf(cameras[shown].camera, cameras[shown].position);
+}
+
+void noteCoarse(const GltfDocument& document, const VertexRuns& runs, Scene& scene, GltfNotes& notes) {
+    scene.coarse = findCoarse(runs.all());
+    if (!scene.coarse)
+        return;
+    const std::string finding = fmt::format(
+        "geometry is too far apart for single precision: {:.3g} m from this scene's origin, ({:.12g}, "
+        "{:.12g}, {:.12g}), positions are rounded to steps of {:.3g} m, too coarse for what is {:.3g} m "
+        "wide; look from near it (--look-from), or render it by itself",
+        scene.coarse->distance, scene.origin.x, scene.origin.y, scene.origin.z, scene.coarse->resolution,
+        scene.coarse->size);
+    for (const VertexRun& run : runs.all())
+        if (isCoarse(run))
+            notes.addObject(finding,
+                            describe("mesh", run.mesh, document.list("meshes")[run.mesh].text("name")));
+}
+
+// Meshes and cameras about the origin that suits them. Far from the world's, meshes are read twice: where
+// they are is known only then.
+void readPlaces(const GltfDocument& document, const ImportOptions& options, NodeTree& nodes, Scene& scene,
+                GltfNotes& notes) {
+    std::vector<PlacedCamera> cameras = readCameras(document, nodes.shown, notes);
+    const GltfNotes before = notes;
+    Geometry geometry = readMeshes(document, nodes, scene.materials, notes);
+    scene.origin = chooseOrigin(geometry.runs.all(), shownFrom(cameras, options, document.source));
+    if (scene.origin != glm::dvec3(0.0)) {
+        geometry = {};
+        notes = before;
+        nodes.moveOrigin(scene.origin);
+        geometry = readMeshes(document, nodes, scene.materials, notes);
+    }
+    noteCoarse(document, geometry.runs, scene, notes);
+    scene.meshes = std::move(geometry.meshes);
+    for (PlacedCamera& placed : cameras) {
+        placed.camera.position = glm::vec3(placed.position - scene.origin);
+        scene.cameras.push_back(std::move(placed.camera));
+    }
+}
+
 Scene buildScene(const GltfDocument& document, const ImportOptions& options) {
     checkAccessors(document);
     GltfNotes notes;
@@ -78,11 +135,11 @@ Scene buildScene(const GltfDocument& document, const ImportOptions& options) {
     scene.shownScene = document.scene;
     scene.variants = document.variants;
     scene.animations = listAnimations(document);
-    const NodeTree nodes = placeNodes(document, poseAt(document, options));
+    NodeTree nodes = placeNodes(document, poseAt(document, options));
     noteIgnored(document, notes);
     scene.materials = readMaterials(document, notes);
     scene.pictures = readPictures(document, scene.materials, notes);
-    scene.meshes = readMeshes(document, nodes, scene.materials, notes);
+    readPlaces(document, options, nodes, scene, notes);
     dropUnwornDefault(scene);
     scene.bounds = boundsOf(scene.meshes);
     findSolids(scene);
@@ -91,7 +148,6 @@ Scene buildScene(const GltfDocument& document, const ImportOptions& options) {
             "\"{}\" bounds no body (KHR_materials_volume): it is open, inside out, or transparent; light "
             "is attenuated where it meets a back",
             printable(name)));
-    scene.cameras = readCameras(document, nodes.shown, notes);
     if (scene.meshes.empty())
         notes.add("the scene has no triangles");
     scene.hasOwnCamera = !scene.cameras.empty();

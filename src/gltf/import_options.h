@@ -4,6 +4,8 @@
 #include <optional>
 #include <string>
 
+#include <glm/glm.hpp>
+
 namespace lavalight {
 
 struct ImportOptions {
@@ -11,8 +13,12 @@ struct ImportOptions {
     std::string animation{};         // animation by name or index; empty: the first
     std::string scene{};             // scene by name or index; empty: the file's default
     std::string variant{};           // variant of the materials, by name or index; empty: none
-    bool allowsExternal = false;     // the file may refer to files outside its folder
-    bool bringsLight = false;        // the caller lights the scene: no white environment stands in
+    // What the caller looks from decides where coordinates are finest: a place in the world, or a camera by
+    // name or index; neither: the first camera.
+    std::optional<glm::dvec3> viewpoint{};
+    std::string camera{};
+    bool allowsExternal = false; // the file may refer to files outside its folder
+    bool bringsLight = false;    // the caller lights the scene: no white environment stands in
 };
 
 } // namespace lavalight

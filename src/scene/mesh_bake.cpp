@@ -118,18 +118,20 @@ VertexTransform::VertexTransform(const glm::dmat4& toWorld)
     : toWorld_(toWorld), normals_(normalTransform(toWorld)),
       isMirrored_(glm::determinant(glm::dmat3(toWorld)) < 0.0) {}
 
-void VertexTransform::apply(Mesh& mesh, size_t vertex) const {
-    mesh.positions[vertex] = glm::vec3(toWorld_ * glm::dvec4(mesh.positions[vertex], 1.0));
+glm::dvec3 VertexTransform::apply(Mesh& mesh, size_t vertex) const {
+    const glm::dvec3 position(toWorld_ * glm::dvec4(mesh.positions[vertex], 1.0));
+    mesh.positions[vertex] = glm::vec3(position);
     if (!mesh.normals.empty())
         mesh.normals[vertex] = unitOrZero(normals_ * glm::dvec3(mesh.normals[vertex]));
     if (mesh.tangents.empty())
-        return;
+        return position;
     // A tangent is an edge of the surface and goes with the matrix itself. With the bitangent w *
     // cross(normal, tangent) and a normal that keeps its side, a mirror turns w.
     const glm::vec4 tangent = mesh.tangents[vertex];
     const bool isNegative = (tangent.w < 0.0f) != isMirrored_;
     mesh.tangents[vertex] =
         glm::vec4(unitOrZero(glm::dmat3(toWorld_) * glm::dvec3(tangent)), isNegative ? -1.0f : 1.0f);
+    return position;
 }
 
 void cleanMesh(Mesh& mesh, BakeCounts& counts) {
@@ -138,11 +140,11 @@ void cleanMesh(Mesh& mesh, BakeCounts& counts) {
     repairTangents(mesh, counts);
 }
 
-Mesh bakeMesh(const Mesh& local, const glm::dmat4& toWorld, BakeCounts& counts) {
+Mesh bakeMesh(const Mesh& local, const glm::dmat4& toWorld, BakeCounts& counts, VertexRuns& runs) {
     Mesh mesh = local;
     const VertexTransform transform(toWorld);
     for (size_t i = 0; i < mesh.positions.size(); ++i)
-        transform.apply(mesh, i);
+        runs.add(transform.apply(mesh, i));
     if (transform.isMirrored()) {
         for (glm::uvec3& triangle : mesh.triangles)
             std::swap(triangle.y, triangle.z);

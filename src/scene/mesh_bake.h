@@ -6,6 +6,7 @@
 #include <glm/glm.hpp>
 
 #include "scene/scene.h"
+#include "scene/vertex_runs.h"
 
 namespace lavalight {
 
@@ -23,8 +24,8 @@ class VertexTransform {
     explicit VertexTransform(const glm::dmat4& toWorld);
 
     // Vertex i with its normal and tangent, which may have any length before and have unit length, or none,
-    // after.
-    void apply(Mesh& mesh, size_t vertex) const;
+    // after. Returns its position before it is rounded to single precision.
+    glm::dvec3 apply(Mesh& mesh, size_t vertex) const;
     [[nodiscard]] bool isMirrored() const { return isMirrored_; } // triangles must turn the other way
 
   private:
@@ -38,7 +39,8 @@ class VertexTransform {
 void cleanMesh(Mesh& mesh, BakeCounts& counts);
 
 // `local` is a mesh in its own space, with normals and tangents of any length. The result's front faces turn
-// counter-clockwise even where `toWorld` mirrors.
-[[nodiscard]] Mesh bakeMesh(const Mesh& local, const glm::dmat4& toWorld, BakeCounts& counts);
+// counter-clockwise even where `toWorld` mirrors. `runs`, which has begun the mesh, gets the positions.
+[[nodiscard]] Mesh bakeMesh(const Mesh& local, const glm::dmat4& toWorld, BakeCounts& counts,
+                            VertexRuns& runs);
 
 } // namespace lavalight

@@ -194,8 +194,18 @@ constexpr uint64_t kMostPictureBytes = kMostTexels * 16;
 // stay finite in single precision.
 constexpr float kLargestPosition = 1e18f;
 
+// Geometry that is small for where it lies. Metres.
+struct CoarseGeometry {
+    double distance = 0.0;   // from the scene's origin
+    double resolution = 0.0; // steps of coordinates there
+    double size = 0.0;       // what is resolved by them
+};
+
 struct Scene {
     std::string source; // file or built-in name
+    // Where (0, 0, 0) of everything below lies in the file's world. All that people read or write of places
+    // is in the world's coordinates.
+    glm::dvec3 origin{0.0};
     std::vector<Mesh> meshes;
     std::vector<Material> materials; // never empty: meshes without one use a default material
     std::vector<Picture> pictures;
@@ -208,7 +218,8 @@ struct Scene {
     Bounds bounds;
     std::vector<Solid> solids;           // findSolids() fills this and the next; the smallest bounds first
     std::vector<std::string> openSolids; // names of meshes that ought to bound a body and do not
-    std::vector<std::string> warnings;   // what was not understood, one line each, with names
+    std::optional<CoarseGeometry> coarse;       // the worst of it, if there is any; it enters the bias ledger
+    std::vector<std::string> warnings;          // what was not understood, one line each, with names
     std::vector<std::string> ignoredExtensions; // exact names; they enter the bias ledger
     std::vector<std::string> extensionsUsed;    // exact names as the file lists them
     std::vector<std::string> variants;          // names of the material variants

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/named.h"
 #include "scene/look_at.h"
+#include "scene/world_position.h"
 
 namespace lavalight {
 namespace {
@@ -22,24 +23,27 @@ const Camera& pickCamera(const Scene& scene, const std::string& wanted) {
     return scene.cameras[findNamed(names, {wanted, "--camera", "camera", scene.source})];
 }
 
-std::string vectorText(const glm::vec3& v) {
+template <class Vector>
+std::string vectorText(const Vector& v) {
     return fmt::format("{},{},{}", v.x, v.y, v.z);
 }
 
-void aim(Camera& camera, const CameraChoice& choice) {
+void aim(Camera& camera, const Scene& scene, const CameraChoice& choice) {
     if (!choice.lookFrom && !choice.lookAt && !choice.up)
         return;
     if (!choice.lookFrom || (!choice.lookAt && !choice.panorama))
         throw UsageError("--look-from and --look-at: one needs the other");
     if (!choice.name.empty())
         throw UsageError("--camera and --look-from: one camera is enough");
-    const glm::vec3 from = *choice.lookFrom;
-    const glm::vec3 at = choice.lookAt.value_or(from + glm::vec3(1.0f, 0.0f, 0.0f));
+    const glm::vec3 from = fromWorld(*choice.lookFrom, scene.origin);
+    const glm::vec3 at =
+        choice.lookAt ? fromWorld(*choice.lookAt, scene.origin) : from + glm::vec3(1.0f, 0.0f, 0.0f);
     const std::optional<Camera> aimed =
         lookAtCamera(from, at, choice.up.value_or(glm::vec3(0.0f, 1.0f, 0.0f)));
     if (!aimed)
-        throw UsageError(from == at ? fmt::format("--look-at: {} is where the camera is", vectorText(at))
-                                    : "--up: it must not be 0,0,0 or lie along the direction of view");
+        throw UsageError(
+            from == at ? fmt::format("--look-at: {} is where the camera is", vectorText(*choice.lookFrom))
+                       : "--up: it must not be 0,0,0 or lie along the direction of view");
     camera = *aimed;
     camera.focusDistance = glm::dot(at - from, camera.forward);
 }
@@ -82,9 +86,15 @@ void setLens(Camera& camera, const Scene& scene, const CameraChoice& choice) {
 
 } // namespace
 
+ImportOptions seenFrom(const CameraChoice& choice, ImportOptions options) {
+    options.viewpoint = choice.lookFrom;
+    options.camera = choice.name;
+    return options;
+}
+
 Camera chooseCamera(const Scene& scene, const CameraChoice& choice) {
     Camera camera = pickCamera(scene, choice.name);
-    aim(camera, choice);
+    aim(camera, scene, choice);
     setFieldOfView(camera, choice);
     if (choice.panorama) {
         camera.projection = Projection::panorama;
@@ -105,7 +115,7 @@ OptionPairs describe(const CameraChoice& choice) {
     const auto number = [](const std::optional<float>& value) {
         return value ? std::optional(fmt::format("{}", *value)) : std::nullopt;
     };
-    const auto vector = [](const std::optional<glm::vec3>& value) {
+    const auto vector = [](const auto& value) {
         return value ? std::optional(vectorText(*value)) : std::nullopt;
     };
     add("look-from", vector(choice.lookFrom));

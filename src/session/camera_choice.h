@@ -6,24 +6,28 @@
 
 #include <glm/glm.hpp>
 
+#include "gltf/import_options.h"
 #include "render/settings.h"
 #include "scene/scene.h"
 
 namespace lavalight {
 
-// Lengths in metres. Members have the names of the command line's options.
+// Lengths in metres, places in the world of the file. Members have the names of the command line's options.
 struct CameraChoice {
-    std::string name;                  // a camera of the scene by name or index; empty: the first
-    std::optional<glm::vec3> lookFrom; // a camera at this place; with lookAt, instead of the scene's
-    std::optional<glm::vec3> lookAt;   // the point in the middle of the image
-    std::optional<glm::vec3> up;       // default: +Y
-    std::optional<float> fov;          // vertical, in degrees, above 0 and below 180
-    float aperture = 0.0f;             // diameter of the lens; 0: all is sharp
-    std::optional<float> focus;        // to the plane that is sharp, along the view
-    bool panorama = false;             // all directions, laid out as environment maps are
-    bool seesAll = false;              // without the planes of the scene's camera
+    std::string name;                   // a camera of the scene by name or index; empty: the first
+    std::optional<glm::dvec3> lookFrom; // a camera at this place; with lookAt, instead of the scene's
+    std::optional<glm::dvec3> lookAt;   // the point in the middle of the image
+    std::optional<glm::vec3> up;        // default: +Y
+    std::optional<float> fov;           // vertical, in degrees, above 0 and below 180
+    float aperture = 0.0f;              // diameter of the lens; 0: all is sharp
+    std::optional<float> focus;         // to the plane that is sharp, along the view
+    bool panorama = false;              // all directions, laid out as environment maps are
+    bool seesAll = false;               // without the planes of the scene's camera
     bool operator==(const CameraChoice&) const = default;
 };
+
+// Import options for a scene that is seen so: its coordinates are finest there.
+[[nodiscard]] ImportOptions seenFrom(const CameraChoice& choice, ImportOptions options);
 
 // Throws UsageError naming the option and what it takes, or the cameras there are.
 [[nodiscard]] Camera chooseCamera(const Scene& scene, const CameraChoice& choice);

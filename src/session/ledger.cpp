@@ -29,6 +29,11 @@ std::vector<LedgerEntry> makeLedger(const Scene& scene, const RenderSettings& se
             {"environment-values",
              fmt::format("{} texels of the environment map were negative or not finite, and are 0",
                          scene.environmentMap->badTexels)});
+    if (scene.coarse)
+        ledger.push_back({"coarse-geometry",
+                          fmt::format("positions {:.3g} m from the scene's origin are rounded to steps of "
+                                      "{:.3g} m, where something is {:.3g} m wide",
+                                      scene.coarse->distance, scene.coarse->resolution, scene.coarse->size)});
     if (!scene.ignoredExtensions.empty())
         ledger.push_back({"ignored-extensions", fmt::format("{}", fmt::join(scene.ignoredExtensions, ", "))});
     if (!scene.openSolids.empty())

@@ -7,6 +7,7 @@
 #include "base/log.h"
 #include "scene/clipping.h"
 #include "scene/view_extent.h"
+#include "scene/world_position.h"
 #include "session/lit_scene.h"
 
 namespace lavalight {
@@ -32,7 +33,7 @@ PreparedScene complete(Scene scene, const Camera& camera, const RenderSettings& 
 }
 
 Scene loadScene(const RenderPlan& plan, const ImportOptions& moment) {
-    return loadLitScene(plan.scene, moment, plan.settings.lighting);
+    return loadLitScene(plan.scene, seenFrom(plan.camera, moment), plan.settings.lighting);
 }
 
 void logWarnings(const Scene& scene) {
@@ -63,9 +64,13 @@ void RenderSession::use(RenderSettings settings) {
 // The first scene of an animation speaks for all: its warnings, its stand-in camera, its image's size.
 PreparedScene RenderSession::load(const ImportOptions& moment) {
     Scene scene = loadScene(plan_, moment);
-    const Camera camera = standIn_ ? *standIn_ : chooseCamera(scene, plan_.camera);
-    if (!scene.hasOwnCamera)
+    Camera camera = standIn_ ? *standIn_ : chooseCamera(scene, plan_.camera);
+    if (standIn_) // each moment has an origin of its own
+        camera.position = fromWorld(toWorld(camera.position, standInOrigin_), scene.origin);
+    if (!scene.hasOwnCamera) {
         standIn_ = camera;
+        standInOrigin_ = scene.origin;
+    }
     PreparedScene prepared = complete(std::move(scene), camera, plan_.settings);
     if (!std::exchange(isWarned_, true))
         logWarnings(prepared.scene);

@@ -76,7 +76,8 @@ class RenderSession {
     RenderPlan plan_;
     KernelSource source_ = embeddedKernel;
     std::optional<Camera> standIn_;
-    bool isWarned_ = false; // whether the warnings of a scene are told
+    glm::dvec3 standInOrigin_{0.0}; // the origin of the scene that it is about
+    bool isWarned_ = false;         // whether the warnings of a scene are told
     std::optional<gpu::Device> ownDevice_;
     gpu::Device* device_ = nullptr; // null: not opened yet
     std::optional<EstimatorKernels> kernels_;

@@ -97,6 +97,7 @@ glm::dvec3 meanOf(const Image& image) {
 void fillInputs(RenderReport& report, const Scene& scene, const RenderSettings& settings) {
     report.settings = settings;
     report.scene = scene.source;
+    report.origin = scene.origin;
     report.triangles = scene.triangleCount();
     report.warnings = scene.warnings;
 }
@@ -130,6 +131,9 @@ Metadata exrMetadata(const RenderReport& report) {
                       {"render-seconds", fmt::format("{:.3f}", report.renderSeconds)},
                       {"complete", report.stop == StopReason::interrupted ? "no, interrupted" : "yes"},
                       {"bias-ledger", ledgerText(report.ledger)}};
+    if (report.origin != glm::dvec3(0.0))
+        metadata.emplace_back("origin",
+                              fmt::format("{},{},{}", report.origin.x, report.origin.y, report.origin.z));
     for (const auto& [key, value] : describeOptions(report))
         metadata.emplace_back("option:" + key, value);
     for (const auto& [part, hash] : report.content)
@@ -142,6 +146,7 @@ std::string reportJson(const RenderReport& report) {
     json["version"] = kVersion;
     json["scene"] = report.scene;
     json["camera"] = report.camera;
+    json["origin"] = {report.origin.x, report.origin.y, report.origin.z};
     json["triangles"] = report.triangles;
     json["device"] = {{"name", report.device.name},
                       {"driver", report.device.driver},

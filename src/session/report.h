@@ -23,7 +23,8 @@ using StageTimes = std::vector<std::pair<std::string, double>>;
 
 struct RenderReport {
     std::string scene;
-    ImportOptions import; // which moment and variant of the scene were shown
+    glm::dvec3 origin{0.0}; // the scene's, in its world
+    ImportOptions import;   // which moment and variant of the scene were shown
     std::string camera;
     RenderSettings settings;
     gpu::DeviceDescription device;

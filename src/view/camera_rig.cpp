@@ -9,6 +9,7 @@
 
 #include "scene/look_at.h"
 #include "scene/view_extent.h"
+#include "scene/world_position.h"
 
 namespace lavalight {
 namespace {
@@ -103,11 +104,16 @@ void CameraRig::focusOn(const glm::vec3& point) {
         camera_.focusDistance = ahead;
 }
 
-OptionPairs cameraOptions(const CameraRig& rig, float aspect) {
+void CameraRig::moveOrigin(const glm::dvec3& origin) {
+    camera_.position = fromWorld(glm::dvec3(camera_.position), origin);
+    pivot_ = fromWorld(glm::dvec3(pivot_), origin);
+}
+
+OptionPairs cameraOptions(const CameraRig& rig, float aspect, const glm::dvec3& origin) {
     const Camera& camera = rig.camera();
-    const auto text = [](const glm::vec3& v) { return fmt::format("{},{},{}", v.x, v.y, v.z); };
-    OptionPairs options{
-        {"look-from", text(camera.position)}, {"look-at", text(rig.pivot())}, {"up", text(camera.up)}};
+    OptionPairs options{{"look-from", worldText(camera.position, origin)},
+                        {"look-at", worldText(rig.pivot(), origin)},
+                        {"up", worldText(camera.up, glm::dvec3(0.0))}};
     if (camera.projection == Projection::perspective)
         options.emplace_back(
             "fov", fmt::format("{}", glm::degrees(2.0f * std::atan(extentAt(camera, aspect).halfHeight))));

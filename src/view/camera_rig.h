@@ -38,6 +38,8 @@ class CameraRig {
     void centreOn(const glm::vec3& point);
     // Focuses: what lies as far ahead as this point is sharp.
     void focusOn(const glm::vec3& point);
+    // Counts its places from this one, which is relative to where they counted from.
+    void moveOrigin(const glm::dvec3& origin);
     void setLens(float radius) { camera_.lensRadius = radius; }
     void setFocusDistance(float metres) { camera_.focusDistance = metres; }
     void setVerticalFov(float radians) { camera_.verticalFov = radians; }
@@ -50,8 +52,8 @@ class CameraRig {
 };
 
 // Options (without dashes) of `lavalight render` that place a camera there, for an image of that width /
-// height.
-[[nodiscard]] OptionPairs cameraOptions(const CameraRig& rig, float aspect);
+// height, in a scene of that origin.
+[[nodiscard]] OptionPairs cameraOptions(const CameraRig& rig, float aspect, const glm::dvec3& origin);
 
 // Where a point appears: (0, 0) is the image's top left corner, (1, 1) its bottom right one. Nothing for what
 // lies behind a perspective camera. `aspect`: width / height.

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "inspect/traced_fate.h"
+#include "scene/world_position.h"
 #include "view/widgets.h"
 
 namespace lavalight {
@@ -17,6 +18,11 @@ std::string text(const glm::vec3& v) {
     return fmt::format("{:.3g} {:.3g} {:.3g}", v.x, v.y, v.z);
 }
 
+std::string placeText(const glm::vec3& p, const glm::dvec3& origin) {
+    return fmt::format("{} {} {}", worldText(p.x, origin.x, 3), worldText(p.y, origin.y, 3),
+                       worldText(p.z, origin.z, 3));
+}
+
 void cell(const std::string& text) {
     ImGui::TableNextColumn();
     ImGui::TextUnformatted(text.c_str());
@@ -26,7 +32,7 @@ void drawVertex(const TracedVertex& vertex, size_t number, const Scene& scene) {
     const bool isHit = !std::isinf(vertex.t);
     ImGui::TableNextRow();
     cell(fmt::format("{}", number));
-    cell(isHit ? text(vertex.position) : "");
+    cell(isHit ? placeText(vertex.position, scene.origin) : "");
     cell(isHit ? scene.materials[vertex.material].name : "environment");
     cell(text(vertex.throughput));
     cell(vertex.pdf > 0.0f ? fmt::format("{:.3g}", vertex.pdf) : "delta");

@@ -8,7 +8,10 @@
 namespace lavalight {
 namespace {
 
-void drawCameras(ViewState& view) {
+// True where the scene has to be read again: what is far from its origin is too coarse to be looked at from
+// near by.
+bool drawCameras(ViewState& view) {
+    bool isElsewhere = false;
     const std::vector<Camera>& cameras = view.scene->cameras;
     std::vector<std::string> names;
     for (const Camera& camera : cameras)
@@ -23,10 +26,14 @@ void drawCameras(ViewState& view) {
                 view.home = cameras[i];
                 view.homeOptions = i == 0 ? OptionPairs() : OptionPairs{{"camera", textFor(names, i)}};
                 view.rig = CameraRig(cameras[i], view.scene->bounds);
+                view.import.viewpoint.reset();
+                view.import.camera = textFor(names, i);
+                isElsewhere = view.scene->coarse.has_value();
             }
         ImGui::EndCombo();
     }
     explain("The scene's cameras; moving starts from the chosen one (Home goes back to it)");
+    return isElsewhere;
 }
 
 void drawLens(ViewState& view) {
@@ -101,11 +108,11 @@ bool drawMoment(ViewState& view) {
 } // namespace
 
 bool drawScene(ViewState& view) {
-    drawCameras(view);
+    const bool isElsewhere = drawCameras(view);
     drawLens(view);
     drawEnvironment(view);
     const bool hasVariant = drawVariants(view);
-    return drawMoment(view) || hasVariant;
+    return drawMoment(view) || hasVariant || isElsewhere;
 }
 
 void drawTone(ToneSettings& tone) {

@@ -29,4 +29,8 @@ struct ViewState {
     bool isFlying = false; // keys or mouse move the camera
 };
 
+// Lets the cameras of a view stay where they are in the world, after `view.scene` has taken the place of a
+// moment of another origin.
+void moveOrigin(ViewState& view, const Scene& before);
+
 } // namespace lavalight

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <utility>
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -130,13 +131,15 @@ void Viewer::receiveScene() {
     for (const std::string& warning : outcome->scene->warnings)
         if (isOther)
             tell(warning, false);
-    view_.scene = outcome->scene;
+    const std::shared_ptr<const Scene> before = std::exchange(view_.scene, outcome->scene);
     view_.source = outcome->order.source;
     view_.import = outcome->order.import;
     if (isOther) {
         view_.home = view_.scene->cameras.front();
         view_.homeOptions.clear();
         view_.rig = CameraRig(view_.home, view_.scene->bounds);
+    } else if (view_.scene->origin != before->origin) {
+        moveOrigin(view_, *before);
     }
     inspection_.reset();
 }
@@ -262,7 +265,8 @@ void Viewer::send() {
     view_.settings.provenance.cameraOptions =
         view_.rig.camera() == view_.home
             ? view_.homeOptions
-            : cameraOptions(view_.rig, static_cast<float>(pixels.x) / static_cast<float>(pixels.y));
+            : cameraOptions(view_.rig, static_cast<float>(pixels.x) / static_cast<float>(pixels.y),
+                            view_.scene->origin);
     if (!view_.isSplit)
         view_.other = view_.settings.estimator;
     LiveRequest request{view_.scene, view_.rig.camera(), view_.settings, std::nullopt,

@@ -183,6 +183,7 @@ TEST_F(RenderRefusal, CamerasThatCannotBe) {
     };
     expectRefusal({"--look-from", "1,2,3", "--look-at", "1,2,3"}, kWrongUsage, "--look-at");
     expectRefusal({"--look-from", "1,2", "--look-at", "1,2,3"}, kWrongUsage, "--look-from");
+    expectRefusal({"--look-from", "1e39,2,3", "--look-at", "1,2,3"}, kWrongUsage, "--look-from");
     expectRefusal({"--look-from", "1,2,3"}, kWrongUsage, "--look-at");
     expectRefusal({"--look-at", "1,2,3"}, kWrongUsage, "--look-from");
     expectRefusal(with({"--up", "0,0,0"}), kWrongUsage, "--up");

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/material_text.h"
+#include "scene/world_position.h"
 #include "session/builtin.h"
 
 namespace lavalight {
@@ -66,20 +67,26 @@ std::string vectorText(const glm::vec3& v) {
     return fmt::format("({:.6g}, {:.6g}, {:.6g})", v.x + 0.0f, v.y + 0.0f, v.z + 0.0f);
 }
 
+// A place, in the world.
+std::string placeText(const glm::vec3& p, const Scene& scene) {
+    return fmt::format("({}, {}, {})", worldText(p.x, scene.origin.x, 6), worldText(p.y, scene.origin.y, 6),
+                       worldText(p.z, scene.origin.z, 6));
+}
+
 std::string planesText(const Camera& camera) {
     if (std::isfinite(camera.zfar))
         return fmt::format(", sees {:.6g} m to {:.6g} m", camera.znear, camera.zfar);
     return camera.znear > 0.0f ? fmt::format(", sees from {:.6g} m on", camera.znear) : "";
 }
 
-std::string cameraText(const Camera& camera) {
+std::string cameraText(const Camera& camera, const Scene& scene) {
     const std::string lens =
         camera.projection == Projection::perspective
             ? fmt::format("perspective, {:.4g} degrees high", glm::degrees(camera.verticalFov))
             : fmt::format("orthographic, {:.4g} m high", 2.0f * camera.halfHeight);
     const std::string aspect = camera.aspect ? fmt::format(", aspect {:.4g}", *camera.aspect) : "";
     return fmt::format("\"{}\": {}{}{}, at {}", camera.name, lens, aspect, planesText(camera),
-                       vectorText(camera.position));
+                       placeText(camera.position, scene));
 }
 
 const char* kindName(PunctualKind kind) {
@@ -94,12 +101,12 @@ const char* kindName(PunctualKind kind) {
     return "";
 }
 
-std::string lightText(const PunctualLight& light) {
+std::string lightText(const PunctualLight& light, const Scene& scene) {
     const bool isDirectional = light.kind == PunctualKind::directional;
     std::string text = fmt::format("\"{}\": {}, {} {}", light.name, kindName(light.kind),
                                    vectorText(light.intensity), isDirectional ? "W/m^2" : "W/sr");
     if (!isDirectional)
-        text += fmt::format(", at {}", vectorText(light.position));
+        text += fmt::format(", at {}", placeText(light.position, scene));
     if (light.kind != PunctualKind::point)
         text += fmt::format(", towards {}", vectorText(light.direction));
     if (light.kind == PunctualKind::spot)
@@ -151,8 +158,10 @@ void printText(const Scene& scene) {
     fmt::print("meshes               {}\n", scene.meshes.size());
     fmt::print("materials            {}\n", scene.materials.size());
     fmt::print("environment          {}\n", vectorText(scene.environment));
-    fmt::print("bounds               {} to {}\n", vectorText(scene.bounds.lower),
-               vectorText(scene.bounds.upper));
+    fmt::print("bounds               {} to {}\n", placeText(scene.bounds.lower, scene),
+               placeText(scene.bounds.upper, scene));
+    if (scene.origin != glm::dvec3(0.0))
+        fmt::print("origin               {}\n", placeText(glm::vec3(0.0f), scene));
     fmt::print("geometry memory      {:.3f} MiB\n", static_cast<double>(geometryBytes(scene)) / kMebibyte);
     fmt::print("textures             {} pictures, {} texels, {:.3f} MiB\n", scene.pictures.size(),
                texelCount(scene), static_cast<double>(pictureBytes(scene)) / kMebibyte);
@@ -162,9 +171,9 @@ void printText(const Scene& scene) {
     for (size_t i = 0; i < scene.scenes.size(); ++i)
         fmt::print("scene {:<14} \"{}\"{}\n", i, scene.scenes[i], i == scene.shownScene ? ", shown" : "");
     for (size_t i = 0; i < scene.cameras.size(); ++i)
-        fmt::print("camera {:<13} {}\n", i, cameraText(scene.cameras[i]));
+        fmt::print("camera {:<13} {}\n", i, cameraText(scene.cameras[i], scene));
     for (size_t i = 0; i < scene.punctualLights.size(); ++i)
-        fmt::print("light {:<14} {}\n", i, lightText(scene.punctualLights[i]));
+        fmt::print("light {:<14} {}\n", i, lightText(scene.punctualLights[i], scene));
     printMaterials(scene);
     for (size_t i = 0; i < scene.animations.size(); ++i)
         fmt::print("animation {:<10} \"{}\": {:.6g} s\n", i, scene.animations[i].name,
@@ -173,11 +182,15 @@ void printText(const Scene& scene) {
         fmt::print("warning              {}\n", warning);
 }
 
-nlohmann::ordered_json vectorJson(const glm::vec3& v) {
+nlohmann::ordered_json vectorJson(const glm::dvec3& v) {
     return {v.x, v.y, v.z};
 }
 
-nlohmann::ordered_json cameraJson(const Camera& camera) {
+nlohmann::ordered_json placeJson(const glm::vec3& position, const Scene& scene) {
+    return vectorJson(toWorld(position, scene.origin));
+}
+
+nlohmann::ordered_json cameraJson(const Camera& camera, const Scene& scene) {
     nlohmann::ordered_json json = {{"name", camera.name}};
     if (camera.projection == Projection::perspective) {
         json["projection"] = "perspective";
@@ -193,17 +206,17 @@ nlohmann::ordered_json cameraJson(const Camera& camera) {
     json["zfar"] = nullptr;
     if (std::isfinite(camera.zfar))
         json["zfar"] = camera.zfar;
-    json["position"] = vectorJson(camera.position);
+    json["position"] = placeJson(camera.position, scene);
     json["forward"] = vectorJson(camera.forward);
     json["up"] = vectorJson(camera.up);
     return json;
 }
 
-nlohmann::ordered_json lightJson(const PunctualLight& light) {
+nlohmann::ordered_json lightJson(const PunctualLight& light, const Scene& scene) {
     nlohmann::ordered_json json = {
         {"name", light.name}, {"kind", kindName(light.kind)}, {"intensity", vectorJson(light.intensity)}};
     if (light.kind != PunctualKind::directional)
-        json["position"] = vectorJson(light.position);
+        json["position"] = placeJson(light.position, scene);
     if (light.kind != PunctualKind::point)
         json["direction"] = vectorJson(light.direction);
     if (light.kind == PunctualKind::spot) {
@@ -228,10 +241,10 @@ nlohmann::ordered_json materialsJson(const Scene& scene) {
 nlohmann::ordered_json sceneJson(const Scene& scene) {
     nlohmann::ordered_json cameras = nlohmann::ordered_json::array();
     for (const Camera& camera : scene.cameras)
-        cameras.push_back(cameraJson(camera));
+        cameras.push_back(cameraJson(camera, scene));
     nlohmann::ordered_json lights = nlohmann::ordered_json::array();
     for (const PunctualLight& light : scene.punctualLights)
-        lights.push_back(lightJson(light));
+        lights.push_back(lightJson(light, scene));
     nlohmann::ordered_json animations = nlohmann::ordered_json::array();
     for (const Animation& animation : scene.animations)
         animations.push_back({{"name", animation.name}, {"seconds", animation.seconds}});
@@ -249,7 +262,9 @@ nlohmann::ordered_json sceneJson(const Scene& scene) {
         {"texels", texelCount(scene)},
         {"pictureBytes", pictureBytes(scene)},
         {"environment", vectorJson(scene.environment)},
-        {"bounds", {{"lower", vectorJson(scene.bounds.lower)}, {"upper", vectorJson(scene.bounds.upper)}}},
+        {"bounds",
+         {{"lower", placeJson(scene.bounds.lower, scene)}, {"upper", placeJson(scene.bounds.upper, scene)}}},
+        {"origin", vectorJson(scene.origin)},
         {"geometryBytes", geometryBytes(scene)},
         {"solids", scene.solids.size()},
         {"openSolids", scene.openSolids},

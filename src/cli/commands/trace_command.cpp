@@ -10,13 +10,14 @@
 #include "cli/options/option_values.h"
 #include "inspect/path_inspector.h"
 #include "inspect/traced_fate.h"
+#include "scene/world_position.h"
 
 namespace lavalight {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json list(const glm::vec3& v) {
+Json list(const glm::dvec3& v) {
     return {v.x, v.y, v.z};
 }
 
@@ -24,7 +25,7 @@ Json vertexJson(const TracedVertex& vertex, uint32_t number, const Scene& scene)
     Json json;
     json["vertex"] = number;
     if (!std::isinf(vertex.t)) {
-        json["position"] = list(vertex.position);
+        json["position"] = list(toWorld(vertex.position, scene.origin));
         json["distance"] = vertex.t;
         json["triangle"] = vertex.surface.primitive;
         json["side"] = (vertex.flags & kTracedFront) != 0 ? "front" : "back";

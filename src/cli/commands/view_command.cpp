@@ -45,7 +45,7 @@ int ViewCommand::run() {
     if (!isNotWatching_)
         shaders_.watchIfThere();
     const std::shared_ptr<ShaderOverlay> overlay = shaders_.overlay();
-    const ImportOptions import = sceneOptions_.importOptions();
+    const ImportOptions import = seenFrom(plan.camera, sceneOptions_.importOptions());
     PreparedScene prepared = prepareScene(plan, import);
     const auto scene = std::make_shared<const Scene>(std::move(prepared.scene));
     const RenderSettings& settings = prepared.settings;

@@ -11,10 +11,11 @@ namespace lavalight {
 namespace {
 
 // An option that was not given has an empty text; so has one that was given as "".
-std::optional<glm::vec3> vectorOf(const CLI::Option& option, const std::string& text) {
+template <typename Number>
+std::optional<glm::vec<3, Number>> vectorOf(const CLI::Option& option, const std::string& text) {
     if (option.count() == 0)
         return std::nullopt;
-    const std::optional<glm::vec3> vector = parseVector(text);
+    const auto vector = parseVector<Number>(text);
     if (!vector)
         throw UsageError(fmt::format("{}: \"{}\" is not X,Y,Z", option.get_name(), text));
     return vector;
@@ -46,9 +47,9 @@ CameraOptions::CameraOptions(CLI::App& parser) : parser_(&parser) {
 
 CameraChoice CameraOptions::choice() const {
     CameraChoice choice = choice_;
-    choice.lookFrom = vectorOf(*parser_->get_option("--look-from"), from_);
-    choice.lookAt = vectorOf(*parser_->get_option("--look-at"), at_);
-    choice.up = vectorOf(*parser_->get_option("--up"), up_);
+    choice.lookFrom = vectorOf<double>(*parser_->get_option("--look-from"), from_);
+    choice.lookAt = vectorOf<double>(*parser_->get_option("--look-at"), at_);
+    choice.up = vectorOf<float>(*parser_->get_option("--up"), up_);
     return choice;
 }
 

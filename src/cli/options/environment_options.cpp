@@ -39,7 +39,7 @@ LightingSettings EnvironmentOptions::lighting() const {
     LightingSettings lighting;
     lighting.rotation = rotation_;
     lighting.intensity = intensity_;
-    if (const std::optional<glm::vec3> radiance = parseVector(environment_)) {
+    if (const std::optional<glm::vec3> radiance = parseVector<float>(environment_)) {
         if (glm::any(glm::lessThan(*radiance, glm::vec3(0.0f))))
             throw UsageError(fmt::format("--env: a radiance in \"{}\" is below 0", environment_));
         lighting.constant = radiance;

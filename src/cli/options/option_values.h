@@ -1,6 +1,7 @@
 // Lists of numbers in the texts of options.
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -13,7 +14,20 @@ namespace lavalight {
 
 [[nodiscard]] std::vector<std::string_view> splitAt(std::string_view text, char separator);
 
-// The vector that "X,Y,Z" stands for, all finite, or nothing.
-[[nodiscard]] std::optional<glm::vec3> parseVector(std::string_view text);
+// The vector that "X,Y,Z" stands for, all finite in single precision, or nothing.
+template <typename Number>
+[[nodiscard]] std::optional<glm::vec<3, Number>> parseVector(std::string_view text) {
+    const auto parts = splitAt(text, ',');
+    if (parts.size() != 3)
+        return std::nullopt;
+    glm::vec<3, Number> vector(0);
+    for (size_t i = 0; i < 3; ++i) {
+        const auto value = parseNumber<Number>(parts[i]);
+        if (!value || !std::isfinite(static_cast<float>(*value)))
+            return std::nullopt;
+        vector[static_cast<glm::length_t>(i)] = *value;
+    }
+    return vector;
+}
 
 } // namespace lavalight

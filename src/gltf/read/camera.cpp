@@ -72,16 +72,11 @@ bool setOrthographic(JsonView source, Camera& camera) {
     return camera.halfHeight > 0.0f && std::isfinite(camera.halfHeight);
 }
 
-struct NumberedCamera {
-    size_t number = 0;
-    Camera camera;
-};
-
 } // namespace
 
-std::vector<Camera> readCameras(const GltfDocument& document, const std::vector<PlacedNode>& nodes,
-                                GltfNotes& notes) {
-    std::vector<NumberedCamera> found;
+std::vector<PlacedCamera> readCameras(const GltfDocument& document, const std::vector<PlacedNode>& nodes,
+                                      GltfNotes& notes) {
+    std::vector<PlacedCamera> found;
     for (const PlacedNode& placed : nodes) {
         const JsonView node = document.list("nodes")[placed.node];
         const std::optional<size_t> number = node.index("camera");
@@ -97,17 +92,14 @@ std::vector<Camera> readCameras(const GltfDocument& document, const std::vector<
         const std::string name = describe("camera", *number, camera.name);
         if (projects && placeCamera(placed.toWorld, camera)) {
             setPlanes(source[source.text("type")], name, camera, notes);
-            found.push_back({*number, camera});
+            found.push_back({*number, glm::dvec3(placed.toWorld[3]), camera});
         } else {
             notes.addObject("cameras that cannot form an image were left out", name);
         }
     }
     std::stable_sort(found.begin(), found.end(),
-                     [](const NumberedCamera& a, const NumberedCamera& b) { return a.number < b.number; });
-    std::vector<Camera> cameras;
-    for (const NumberedCamera& camera : found)
-        cameras.push_back(camera.camera);
-    return cameras;
+                     [](const PlacedCamera& a, const PlacedCamera& b) { return a.number < b.number; });
+    return found;
 }
 
 } // namespace lavalight

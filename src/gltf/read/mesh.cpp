@@ -7,6 +7,7 @@
 #include <string>
 
 #include <fmt/format.h>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include "base/os/memory.h"
 #include "gltf/read/instancing.h"
@@ -17,6 +18,7 @@
 #include "gltf/read/vertices.h"
 #include "scene/mesh_bake.h"
 #include "scene/mesh_vertices.h"
+#include "scene/scene_origin.h"
 #include "scene/tangents.h"
 
 namespace lavalight {
@@ -123,16 +125,29 @@ void noteUnread(const GltfDocument& document, JsonView primitive, const std::str
         notes.addObject("the last triangle is incomplete and was left out", name);
 }
 
-// A primitive in its own space, with the numbers of its vertices in the file.
+// A primitive in its own space, with where it comes from.
 struct LocalMesh {
-    JsonView source;
+    VertexSource source;
     Mesh mesh; // empty if it shows no triangles
-    std::vector<uint32_t> vertices;
 };
+
+// What the file itself has rounded, no origin brings back.
+void noteRounded(const std::vector<glm::vec3>& positions, const std::string& name, GltfNotes& notes) {
+    VertexRuns runs;
+    runs.begin(0, positions.size());
+    for (const glm::vec3& position : positions)
+        runs.add(glm::dvec3(position));
+    if (const std::optional<CoarseGeometry> worst = findCoarse(runs.all()))
+        notes.addObject(fmt::format("positions {:.3g} m from their node are rounded to steps of {:.3g} m by "
+                                    "the file itself, too coarse for what is {:.3g} m wide; store them near "
+                                    "their node, and move that",
+                                    worst->distance, worst->resolution, worst->size),
+                        name);
+}
 
 LocalMesh readPrimitive(const GltfDocument& document, JsonView primitive, const std::string& name,
                         GltfNotes& notes) {
-    LocalMesh local{primitive, {}, {}};
+    LocalMesh local{{primitive, {}, {}}, {}};
     if (!hasTriangles(primitive)) {
         notes.addObject("points and lines are not rendered", name);
         return local;
@@ -144,9 +159,12 @@ LocalMesh readPrimitive(const GltfDocument& document, JsonView primitive, const 
     const size_t vertexCount = countVertices(document, primitive, name);
     noteUnread(document, primitive, name, notes);
     std::vector<glm::uvec3> triangles = readTriangles(document, primitive, vertexCount);
-    local.vertices = compactIndices(triangles);
-    local.mesh = readVertices(document, primitive, local.vertices);
+    local.source.vertices = compactIndices(triangles);
+    local.mesh = readVertices(document, primitive, local.source.vertices);
     local.mesh.triangles = std::move(triangles);
+    noteRounded(local.mesh.positions, name, notes);
+    if (primitive["targets"].size() > 0 && !local.mesh.positions.empty())
+        local.source.anchor = takeAnchor(local.mesh);
     return local;
 }
 
@@ -173,6 +191,7 @@ class MeshReader {
 
     // Everything that nodes show of glTF's mesh `index`.
     void read(size_t index, const std::vector<const PlacedNode*>& nodes) {
+        number_ = index;
         const JsonView source = document_.list("meshes")[index];
         const std::string& ownName = source.text("name");
         const std::string name = describe("mesh", index, ownName);
@@ -192,29 +211,31 @@ class MeshReader {
         }
     }
 
-    [[nodiscard]] std::vector<Mesh> finish() {
+    [[nodiscard]] Geometry finish() {
         noteCounts(counts_, notes_);
-        return std::move(meshes_);
+        return std::move(geometry_);
     }
 
   private:
     // What one node shows of a primitive: morphed, then skinned or placed.
     void show(const LocalMesh& local, const PlacedNode& placed, JsonView node, const std::string& name) {
         const std::optional<size_t> skin = node.index("skin");
-        const size_t targets = local.source["targets"].size();
-        const bool isSkinned = skin && hasJoints(local.source);
+        const size_t targets = local.source.primitive["targets"].size();
+        const bool isSkinned = skin && hasJoints(local.source.primitive);
         if (skin && !isSkinned)
             notes_.addObject("a skin moves no mesh without JOINTS_0 and WEIGHTS_0",
                              describe("node", placed.node, node.text("name")));
+        const glm::dmat4 toNode = glm::translate(glm::dmat4(1.0), local.source.anchor);
         if (targets == 0 && !isSkinned)
-            return placeInstances(local.mesh, placed, node);
+            return placeInstances(local.mesh, placed, toNode);
         Mesh mesh = local.mesh;
-        applyMorphTargets(document_, local.source, local.vertices,
+        applyMorphTargets(document_, local.source.primitive, local.source.vertices,
                           morphWeights(document_, placed.node, tree_.pose, targets), mesh);
         limitVertices(mesh, name, notes_);
         if (!isSkinned)
-            return placeInstances(mesh, placed, node);
-        applySkin(document_, local.source, local.vertices, jointsOf(*skin), mesh);
+            return placeInstances(mesh, placed, toNode);
+        geometry_.runs.begin(number_, mesh.positions.size());
+        applySkin(document_, local.source, jointsOf(*skin), mesh, geometry_.runs);
         cleanMesh(mesh, counts_);
         keep(std::move(mesh));
     }
@@ -227,10 +248,13 @@ class MeshReader {
         return joints_.emplace(skin, jointTransforms(document_, skin, tree_.toWorld)).first->second;
     }
 
-    void placeInstances(const Mesh& local, const PlacedNode& placed, JsonView node) {
-        const InstanceReader instances(document_, node);
-        for (size_t i = 0; i < instances.count(); ++i)
-            keep(bakeMesh(local, placed.toWorld * instances.transform(i), counts_));
+    void placeInstances(const Mesh& local, const PlacedNode& placed, const glm::dmat4& toNode) {
+        const InstanceReader instances(document_, document_.list("nodes")[placed.node]);
+        for (size_t i = 0; i < instances.count(); ++i) {
+            geometry_.runs.begin(number_, local.positions.size());
+            const glm::dmat4 toWorld = placed.toWorld * instances.transform(i) * toNode;
+            keep(bakeMesh(local, toWorld, counts_, geometry_.runs));
+        }
     }
 
     // Takes a mesh in world space, with tangents where its material wants them.
@@ -239,7 +263,7 @@ class MeshReader {
         if (mesh.tangents.empty() && uvSet)
             generateTangents(mesh, *uvSet);
         if (!mesh.triangles.empty())
-            meshes_.push_back(std::move(mesh));
+            geometry_.meshes.push_back(std::move(mesh));
     }
 
     const GltfDocument& document_;
@@ -248,13 +272,14 @@ class MeshReader {
     GltfNotes& notes_;
     BakeCounts counts_;
     std::map<size_t, std::vector<glm::dmat4>> joints_; // by skin
-    std::vector<Mesh> meshes_;
+    size_t number_ = 0;                                // the file's, of the mesh that is read
+    Geometry geometry_;
 };
 
 } // namespace
 
-std::vector<Mesh> readMeshes(const GltfDocument& document, const NodeTree& tree,
-                             const std::vector<Material>& materials, GltfNotes& notes) {
+Geometry readMeshes(const GltfDocument& document, const NodeTree& tree,
+                    const std::vector<Material>& materials, GltfNotes& notes) {
     const MeshInstances instances = groupByMesh(document, tree.shown);
     requireFitting(document, instances);
     requireFewMorphs(document, instances, tree.pose);

@@ -131,6 +131,14 @@ void chooseScene(GltfDocument& document, const std::string& wanted) {
                          : findNamed(document.scenes, {wanted, "--scene", "scene", document.source});
 }
 
+void NodeTree::moveOrigin(const glm::dvec3& origin) {
+    const glm::dvec4 way(origin, 0.0);
+    for (PlacedNode& placed : shown)
+        placed.toWorld[3] -= way;
+    for (glm::dmat4& transform : toWorld)
+        transform[3] -= way;
+}
+
 NodeTree placeNodes(const GltfDocument& document, Pose pose) {
     const std::vector<size_t> parents = findParents(document);
     requireNoCycle(document, parents);

@@ -23,6 +23,9 @@ struct NodeTree {
     std::vector<PlacedNode> shown;   // parents before children
     std::vector<glm::dmat4> toWorld; // transform of every node: joints may stand outside the scene
     Pose pose;
+
+    // Makes this place the one that coordinates count from.
+    void moveOrigin(const glm::dvec3& origin);
 };
 
 // Lists the document's scenes and picks the one of that name or number; without, its default, or the first.

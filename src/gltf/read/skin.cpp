@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include "gltf/decode/accessor.h"
 #include "scene/mesh_bake.h"
@@ -86,20 +87,21 @@ bool hasJoints(JsonView primitive) {
     return primitive["attributes"].has("JOINTS_0") && primitive["attributes"].has("WEIGHTS_0");
 }
 
-void applySkin(const GltfDocument& document, JsonView primitive, const std::vector<uint32_t>& vertices,
-               const std::vector<glm::dmat4>& joints, Mesh& mesh) {
-    Blend blend(document, vertices, joints);
+void applySkin(const GltfDocument& document, const VertexSource& source,
+               const std::vector<glm::dmat4>& joints, Mesh& mesh, VertexRuns& runs) {
+    Blend blend(document, source.vertices, joints);
+    const JsonView attributes = source.primitive["attributes"];
     for (size_t set = 0;; ++set) {
-        const std::optional<size_t> numbers = primitive["attributes"].index(fmt::format("JOINTS_{}", set));
-        const std::optional<size_t> weights = primitive["attributes"].index(fmt::format("WEIGHTS_{}", set));
+        const std::optional<size_t> numbers = attributes.index(fmt::format("JOINTS_{}", set));
+        const std::optional<size_t> weights = attributes.index(fmt::format("WEIGHTS_{}", set));
         if (!numbers || !weights)
             break;
         blend.add(AccessorView(document, *numbers), AccessorView(document, *weights));
     }
-    std::vector<bool> isMirrored(vertices.size(), false);
-    for (size_t i = 0; i < vertices.size(); ++i) {
-        const VertexTransform transform(blend.transform(i));
-        transform.apply(mesh, i);
+    std::vector<bool> isMirrored(source.vertices.size(), false);
+    for (size_t i = 0; i < source.vertices.size(); ++i) {
+        const VertexTransform transform(glm::translate(blend.transform(i), source.anchor));
+        runs.add(transform.apply(mesh, i));
         isMirrored[i] = transform.isMirrored();
     }
     for (glm::uvec3& triangle : mesh.triangles) {

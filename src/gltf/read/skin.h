@@ -7,7 +7,9 @@
 #include <glm/glm.hpp>
 
 #include "gltf/file/document.h"
+#include "gltf/read/vertices.h"
 #include "scene/scene.h"
+#include "scene/vertex_runs.h"
 
 namespace lavalight {
 
@@ -19,11 +21,11 @@ namespace lavalight {
 // Whether the primitive says which joints move it.
 [[nodiscard]] bool hasJoints(JsonView primitive);
 
-// Brings `mesh`, whose vertices are those of these numbers, to world space: each vertex by the mean of its
+// Brings `mesh`, whose vertices are those of the source, to world space: each vertex by the mean of its
 // joints' transforms (JOINTS_n, WEIGHTS_n), normals by its inverse transpose. The node's own transform has no
-// part in it, as the specification has it. Throws Error for joints that the skin does not have and for
-// attributes of another type.
-void applySkin(const GltfDocument& document, JsonView primitive, const std::vector<uint32_t>& vertices,
-               const std::vector<glm::dmat4>& joints, Mesh& mesh);
+// part in it, as the specification has it. `runs`, which has begun the mesh, gets the positions. Throws Error
+// for joints that the skin does not have and for attributes of another type.
+void applySkin(const GltfDocument& document, const VertexSource& source,
+               const std::vector<glm::dmat4>& joints, Mesh& mesh, VertexRuns& runs);
 
 } // namespace lavalight

@@ -110,6 +110,23 @@ Mesh readVertices(const GltfDocument& document, JsonView primitive, const std::v
     return mesh;
 }
 
+glm::dvec3 takeAnchor(Mesh& mesh) {
+    constexpr float kFar = 256.0f; // sizes of the mesh: then the difference of two coordinates is exact
+    glm::dvec3 anchor(0.0);
+    for (glm::length_t axis = 0; axis < 3; ++axis) {
+        const auto [least, greatest] =
+            std::minmax_element(mesh.positions.begin(), mesh.positions.end(),
+                                [axis](const glm::vec3& a, const glm::vec3& b) { return a[axis] < b[axis]; });
+        const float at = (*least)[axis];
+        if (!(std::abs(at) > kFar * ((*greatest)[axis] - at)) || !std::isfinite(at))
+            continue;
+        anchor[axis] = at;
+        for (glm::vec3& position : mesh.positions)
+            position[axis] -= at;
+    }
+    return anchor;
+}
+
 void limitVertices(Mesh& mesh, const std::string& name, GltfNotes& notes) {
     for (glm::vec4& color : mesh.colors) // a false comparison makes NaN a 0
         for (int channel = 0; channel < 4; ++channel)

@@ -39,6 +39,22 @@ TEST(CameraChoice, AnAimedCameraLooksAtItsPointAndFocusesThere) {
     EXPECT_EQ(camera.focusDistance, 3.0f);
 }
 
+TEST(CameraChoice, PlacesAreTheWorldsHoweverFarTheSceneIs) {
+    Scene scene = cornellBox();
+    scene.origin = {1e7, 0.0, -2e7};
+    CameraChoice choice = aimed();
+    choice.lookFrom = {1e7 + 0.1, 0.0, 4.0 - 2e7};
+    choice.lookAt = {1e7 + 0.1, 0.0, 1.0 - 2e7};
+    const Camera camera = chooseCamera(scene, choice);
+    EXPECT_NEAR(camera.position.x, 0.1f, 1e-8f);
+    EXPECT_EQ(camera.position.z, 4.0f);
+    EXPECT_EQ(camera.forward, glm::vec3(0.0f, 0.0f, -1.0f));
+    EXPECT_EQ(describe(choice).at(0).second, "10000000.1,0,-19999996");
+    const ImportOptions import = seenFrom(choice, {.seconds = 2.0});
+    EXPECT_EQ(import.viewpoint, choice.lookFrom);
+    EXPECT_EQ(import.seconds, 2.0);
+}
+
 TEST(CameraChoice, FieldOfViewAndLensAreInDegreesAndDiameters) {
     CameraChoice choice = aimed();
     choice.fov = 90.0f;

@@ -24,6 +24,7 @@ TEST(Ledger, UnbiasedImageHasNoEntry) {
 TEST(Ledger, NamesEveryCauseWithItsFigures) {
     Scene scene;
     scene.ignoredExtensions = {"KHR_a", "EXT_b"};
+    scene.coarse = {.distance = 1e7, .resolution = 1.0, .size = 2.0};
     scene.meshes.resize(2);
     scene.meshes[1].name = "ice";
     scene.solids = {{1, {}}};
@@ -38,7 +39,8 @@ TEST(Ledger, NamesEveryCauseWithItsFigures) {
                                                      {"open-solids", "wax, pond"},
                                                      {"negative-samples", "55 samples were negative"},
                                                      {"limited-values", "66 values"},
-                                                     {"ignored-extensions", "KHR_a, EXT_b"}};
+                                                     {"ignored-extensions", "KHR_a, EXT_b"},
+                                                     {"coarse-geometry", "steps of 1 m"}};
     for (const LedgerEntry& entry : ledger)
         EXPECT_NE(entry.detail.find(figures.at(entry.cause)), std::string::npos)
             << entry.cause << ": " << entry.detail;

@@ -1,16 +1,20 @@
 // Moving the camera by hand.
 #include <cmath>
+#include <memory>
 #include <numbers>
 
 #include <gtest/gtest.h>
 
 #include "scene/look_at.h"
 #include "view/camera_rig.h"
+#include "view/view_state.h"
 
 namespace lavalight {
 namespace {
 
 constexpr float kNear = 1e-4f;
+
+using Option = OptionPairs::value_type;
 
 const Bounds kScene{{-1.0f, -1.0f, -1.0f}, {1.0f, 1.0f, 1.0f}};
 
@@ -108,6 +112,44 @@ TEST(CameraRig, AnOrthographicViewIsNarrowedInsteadOfMoved) {
     EXPECT_EQ(rig.camera().position, camera.position);
     rig.pan({0.5f, 0.0f}, 1.0f);
     expectNear(rig.camera().position, {-1.0f, 0.0f, 5.0f});
+}
+
+TEST(CameraRig, ItsOptionsAreInTheWorldWithAllDigits) {
+    CameraRig rig = makeRig();
+    rig.fly({0.1f, 0.0f, 0.0f});
+    EXPECT_EQ(cameraOptions(rig, 1.0f, glm::dvec3(0.0)).at(0), Option("look-from", "0.1,0,5"));
+    const OptionPairs far = cameraOptions(rig, 1.0f, {1e7, 0.0, -2e7});
+    EXPECT_EQ(far.at(0), Option("look-from", "10000000.100000001,0,-19999995"));
+    EXPECT_EQ(far.at(1), Option("look-at", "10000000.100000001,0,-20000000"));
+    EXPECT_EQ(far.at(2), Option("up", "0,1,0"));
+}
+
+TEST(CameraRig, StaysWhereItIsInTheWorldWhenTheOriginMoves) {
+    CameraRig rig = makeRig();
+    const OptionPairs before = cameraOptions(rig, 1.0f, {1e7, 0.0, 0.0});
+    rig.moveOrigin({-8.0, 2.0, 0.5});
+    expectNear(rig.pivot(), {8.0f, -2.0f, -0.5f});
+    EXPECT_EQ(cameraOptions(rig, 1.0f, {1e7 - 8.0, 2.0, 0.5}), before);
+}
+
+// A moment of an animation whose scene has another origin.
+TEST(MoveOrigin, TakesTheSceneCameraFromTheSceneWhichHasItInFull) {
+    Scene before;
+    before.cameras = {makeRig().camera()};
+    before.cameras[0].position.x = 1e7f;
+    auto after = std::make_shared<Scene>(before);
+    after->origin = {1e7, 0.0, 0.0};
+    after->cameras[0].position.x = 0.25f;
+    const Camera& home = before.cameras[0];
+    ViewState atHome{"s.glb", {}, after, CameraRig(home, kScene), home, {}, {}, {}};
+    ViewState moved = atHome;
+    moved.rig.fly({0.0f, 2.0f, 0.0f});
+    moveOrigin(atHome, before);
+    expectNear(atHome.home.position, {0.25f, 0.0f, 5.0f});
+    expectNear(atHome.rig.camera().position, {0.25f, 0.0f, 5.0f});
+    moveOrigin(moved, before);
+    expectNear(moved.home.position, {0.25f, 0.0f, 5.0f});
+    expectNear(moved.rig.camera().position, {0.0f, 2.0f, 5.0f});
 }
 
 TEST(Project, PointsBehindTheCameraDoNotAppear) {
