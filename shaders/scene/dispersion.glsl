@@ -4,7 +4,8 @@
 #include "shared/wavefront.h"
 
 bool isDispersive(MaterialRecord material) {
-    return material.dispersion > 0.0 && material.transmission > 0.0 && (material.flags & kMaterialSolid) != 0u;
+    return material.dispersion > 0.0 && material.transmission > 0.0 && (material.flags & kMaterialSolid) != 0u &&
+           material.ior > 0.0;
 }
 
 // Indices of red, green, blue: Cauchy's curve between Fraunhofer's lines C, d and F as a straight one; dispersion = 20 / Abbe

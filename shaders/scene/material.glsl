@@ -27,13 +27,10 @@ vec2 alphaOf(MaterialRecord material) {
 
 // isFront: wo is on the triangle's front, which is the outside of a solid.
 Glass glassOf(MaterialRecord material, bool isFront) {
-    Glass glass;
-    glass.color = material.baseColor;
-    glass.alpha = alphaOf(material);
-    glass.isThin = (material.flags & kMaterialSolid) == 0u;
-    glass.eta = isFront || glass.isThin ? material.ior : 1.0 / material.ior;
-    glass.film = filmOf(material);
-    return glass;
+    const bool isThin = (material.flags & kMaterialSolid) == 0u;
+    const bool enters = isFront || isThin;
+    const float eta = relativeIndex(enters ? material.ior : 1.0, enters ? 1.0 : material.ior);
+    return makeGlass(material.baseColor, alphaOf(material), eta, isThin, filmOf(material));
 }
 
 // What covers the diffuse base: the dielectric alone, largest channel. Under a film, whose colours mix dielectric and

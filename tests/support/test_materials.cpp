@@ -177,9 +177,12 @@ std::vector<TestMaterial> solidMaterials() {
 
 std::vector<TestMaterial> smoothLayers() {
     const glm::vec3 white(1.0f);
+    MaterialRecord matched = withFilm(glass(0.5f, true), 1.4f, 500.0f); // only its film is a boundary
+    matched.ior = 1.0f;
     return {{"smooth clearcoat over white dielectric", clearcoated(dielectric(white, 0.5f), 1.0f, 0.0f)},
             {"smooth clearcoat over white metal", clearcoated(metal(white, 0.4f), 1.0f, 0.0f)},
             {"rough clearcoat over smooth metal", clearcoated(metal(white, 0.0f), 1.0f, 0.4f)},
+            {"film over a rough solid of index 1", matched},
             {"tilted smooth clearcoat", withTiltedCoat(clearcoated(dielectric(white, 0.4f), 1.0f, 0.0f))},
             {"smooth pane, rough clearcoat", clearcoated(glass(0.0f, false), 1.0f, 0.5f)},
             {"sheen over smooth white dielectric", withSheen(dielectric(white, 0.0f), white, 0.5f)}};

@@ -115,6 +115,15 @@ vec3 sampleLobe(Surface s, vec3 wo, vec2 u, LobeChoice choice) {
     return wi;
 }
 
+// What the glass lobe draws where it is too narrow for a density.
+BsdfSample narrowSample(Surface s, vec3 wo, vec3 wi, vec2 u, LobeChoice choice) {
+    if (wi == vec3(0.0))
+        return kAbsorbed;
+    const vec3 weight = s.glassShare * narrowGlassWeight(s.glass, wo, u, wi) * throughSheen(s, wo.z, abs(wi.z)) *
+                        throughClearcoat(s, wo, wi) / choice.probability;
+    return BsdfSample(wi, weight, 0.0, wi.z < 0.0 && !s.glass.isThin ? s.glass.eta : 1.0);
+}
+
 // u: direction; lobe: which lobe, and within glass which side.
 BsdfSample sampleBsdf(Surface s, vec3 wo, vec2 u, float lobe) {
     if (wo.z <= 0.0)
@@ -123,6 +132,8 @@ BsdfSample sampleBsdf(Surface s, vec3 wo, vec2 u, float lobe) {
     if (sceneHas(kFeatureSmoothLobes) && isSmoothLobe(s, choice.lobe))
         return sampleSmooth(s, wo, choice);
     const vec3 wi = sampleLobe(s, wo, u, choice);
+    if (sceneHas(kFeatureGlass) && sceneHas(kFeatureRoughLobes) && choice.lobe == kLobeGlass && isDeltaGlass(s.glass, wi))
+        return narrowSample(s, wo, wi, u, choice);
     const float pdf = pdfBsdf(s, wo, wi);
     if (pdf <= 0.0)
         return kAbsorbed;

@@ -11,10 +11,18 @@ vec3 schlick(vec3 f0, float f90, float cosTheta) {
     return mix(f0, vec3(f90), schlickWeight(cosTheta));
 }
 
+// Squared cosine beyond an interface, by Snell's law; below 0 under total internal reflection. Of indices that nearly match
+// the usual form, a difference of two numbers near 1, would lose small cosines: at grazing angles all was reflected.
+float cos2Beyond(float cosTheta, float eta) {
+    if (abs(eta - 1.0) < 0.0625)
+        return (cosTheta * cosTheta + (eta - 1.0) * (eta + 1.0)) / (eta * eta);
+    return 1.0 - (1.0 - cosTheta * cosTheta) / (eta * eta);
+}
+
 // Unpolarised reflectance of a smooth interface between dielectrics; eta = index beyond the interface / index on this
 // side, cosTheta >= 0 on this side. 1 under total internal reflection. Born, Wolf, "Principles of Optics", section 1.5.2.
 float fresnelDielectric(float cosTheta, float eta) {
-    const float cos2T = 1.0 - (1.0 - cosTheta * cosTheta) / (eta * eta);
+    const float cos2T = cos2Beyond(cosTheta, eta);
     if (cos2T <= 0.0)
         return 1.0;
     const float cosT = sqrt(cos2T);
@@ -27,7 +35,7 @@ float fresnelDielectric(float cosTheta, float eta) {
 // meets total internal reflection continuously.
 float schlickDielectric(float cosTheta, float eta) {
     const float r = (eta - 1.0) / (eta + 1.0);
-    const float cos2T = 1.0 - (1.0 - cosTheta * cosTheta) / (eta * eta);
+    const float cos2T = cos2Beyond(cosTheta, eta);
     if (cos2T <= 0.0)
         return 1.0;
     return mix(r * r, 1.0, schlickWeight(eta < 1.0 ? sqrt(cos2T) : cosTheta));

@@ -10,20 +10,43 @@
 struct Glass {
     vec3 color;  // tint of what passes through
     vec2 alpha;
-    float eta;   // index on the other side / index on the side of wo; thin wall: of its material / outside
+    float eta;   // index on the other side / index on the side of wo; thin wall: of its material / outside; 0: all is reflected
     bool isThin; // a wall without inside: light passes straight, spread as by reflection and mirrored
     Film film;   // film on the outside
 };
 
+// The index beyond an interface / the one on this side. 0 in a file is an infinite one, on either side a mirror.
+float relativeIndex(float beyond, float here) {
+    return beyond > 0.0 && here > 0.0 ? beyond / here : 0.0;
+}
+
+bool hasFilm(Glass g) {
+    return sceneHas(kFeatureIridescence) && g.film.weight > 0.0;
+}
+
+// Where indices match there is no boundary: light goes on as it came, whatever the roughness. A thin wall's spread does not
+// follow from its index, so that it is brought to nothing over the last thousandth: the wall fades, and does not jump.
+Glass makeGlass(vec3 color, vec2 alpha, float eta, bool isThin, Film film) {
+    Glass g = Glass(color, alpha, eta, isThin, film);
+    const float difference = abs(eta - 1.0);
+    if (hasFilm(g) || (isThin ? difference >= 1e-3 : difference > 0.0))
+        return g;
+    const float left = isThin ? alpha.x * difference * 1e3 : 0.0;
+    g.alpha = left < kSmoothAlpha ? vec2(0.0) : max(alpha * difference * 1e3, kSmoothAlpha);
+    return g;
+}
+
 // Reflectance; equal in all channels unless a film colours it.
 vec3 glassFresnel(Glass g, float cosTheta) {
-    const float plain =
-        kFresnel == kFresnelSchlick ? schlickDielectric(cosTheta, g.eta) : fresnelDielectric(cosTheta, g.eta);
-    if (!sceneHas(kFeatureIridescence) || g.film.weight <= 0.0 || plain == 1.0)
+    if (g.eta <= 0.0)
+        return vec3(1.0);
+    const float plain = g.eta == 1.0                ? 0.0
+                        : kFresnel == kFresnelSchlick ? schlickDielectric(cosTheta, g.eta)
+                                                      : fresnelDielectric(cosTheta, g.eta);
+    if (!hasFilm(g) || plain == 1.0)
         return vec3(plain);
     // From inside as from outside at the angle that light leaves with: what has no losses reflects alike both ways.
-    const float cosOutside =
-        g.eta < 1.0 ? sqrt(max(0.0, 1.0 - (1.0 - cosTheta * cosTheta) / (g.eta * g.eta))) : cosTheta;
+    const float cosOutside = g.eta < 1.0 ? sqrt(max(0.0, cos2Beyond(cosTheta, g.eta))) : cosTheta;
     const float r = (g.eta - 1.0) / (g.eta + 1.0);
     return mix(vec3(plain), filmReflectance(g.film, vec3(r * r), cosOutside), g.film.weight);
 }
@@ -38,7 +61,7 @@ vec3 throughFacet(Glass g, vec3 wo, vec3 m) {
     const float cosO = dot(wo, m);
     if (g.isThin)
         return reflect(-wo, m) * vec3(1.0, 1.0, -1.0);
-    const float cosT = sqrt(max(0.0, 1.0 - (1.0 - cosO * cosO) / (g.eta * g.eta)));
+    const float cosT = sqrt(max(0.0, cos2Beyond(cosO, g.eta)));
     return normalize((cosO / g.eta - cosT) * m - wo / g.eta);
 }
 
@@ -64,26 +87,56 @@ float facetJacobian(Glass g, vec3 wo, vec3 wi, vec3 m) {
     return abs(dot(wi, m)) / max(denominator * denominator, 1e-20);
 }
 
+// Nearly matching indices bend so little that what passes is as narrow as a delta: alpha times the difference of the indices
+// is its width. Facets are found from directions with an error of 1e-7 / difference, which must be far below alpha.
+const float kNarrowestPass = 1e-4;
+
+// Whether light that is drawn towards wi counts as a delta: light sampling cannot find it.
+bool isDeltaGlass(Glass g, vec3 wi) {
+    if (g.alpha.x < kSmoothAlpha)
+        return true;
+    return wi.z < 0.0 && !g.isThin && g.alpha.x * abs(g.eta - 1.0) < kNarrowestPass;
+}
+
+// Whether rough glass sends light to wi by the facet m.
 bool isFacetSeen(Glass g, vec3 wo, vec3 wi, vec3 m) {
-    if (dot(wo, m) <= 0.0)
+    if (dot(wo, m) <= 0.0 || isDeltaGlass(g, wi) || (wi.z < 0.0 && g.eta <= 0.0))
         return false;
     return wi.z > 0.0 || g.isThin || dot(wi, m) < 0.0;
 }
 
-// Draws wi: u.xy the facet, v whether it reflects; 0 if it is lost to masking, on the wrong side. Smooth glass is a delta
-// lobe: m is the normal.
+// Smooth glass is a delta lobe, whose facet is the surface.
+vec3 sampleFacet(Glass g, vec3 wo, vec2 u) {
+    return g.alpha.x < kSmoothAlpha ? vec3(0.0, 0.0, 1.0) : squareToVisibleNormal(u, wo, g.alpha);
+}
+
+// Draws wi: u.xy the facet, v whether it reflects; 0 if it is lost to masking, on the wrong side.
 vec3 sampleGlass(Glass g, vec3 wo, vec2 u, float v) {
-    const vec3 m = g.alpha.x < kSmoothAlpha ? vec3(0.0, 0.0, 1.0) : squareToVisibleNormal(u, wo, g.alpha);
+    const vec3 m = sampleFacet(g, wo, u);
     const bool reflects = v < reflectionProbability(glassFresnel(g, dot(wo, m)));
     const vec3 wi = reflects ? reflect(-wo, m) : throughFacet(g, wo, m);
     return reflects == (wi.z > 0.0) ? wi : vec3(0.0);
 }
 
-// f |cos| / pdf of smooth glass, whose wi was drawn.
-vec3 smoothGlassWeight(Glass g, vec3 wo, vec3 wi) {
-    const vec3 f = glassFresnel(g, wo.z);
+// f |cos| / pdf of a facet, of which wi was drawn: what reflects or passes over the probability of drawing that.
+vec3 facetWeight(Glass g, float cosO, vec3 wi) {
+    const vec3 f = glassFresnel(g, cosO);
     const float p = reflectionProbability(f);
     return wi.z > 0.0 ? f / p : passColor(g) * (1.0 - f) / (1.0 - p);
+}
+
+// f |cos| / pdf of smooth glass, whose wi was drawn.
+vec3 smoothGlassWeight(Glass g, vec3 wo, vec3 wi) {
+    return facetWeight(g, wo.z, wi);
+}
+
+// f |cos| / pdf where isDeltaGlass() holds of rough glass, whose wi was drawn with u. It needs no density: facets are drawn
+// by G1, and G2 of them are seen from both sides.
+vec3 narrowGlassWeight(Glass g, vec3 wo, vec2 u, vec3 wi) {
+    if (g.alpha.x < kSmoothAlpha)
+        return smoothGlassWeight(g, wo, wi);
+    const float seen = ggxG2(wo, vec3(wi.xy, abs(wi.z)), g.alpha) / ggxG1(wo, g.alpha);
+    return seen * facetWeight(g, dot(wo, sampleFacet(g, wo, u)), wi);
 }
 
 // f |cos| of rough glass.
