@@ -9,6 +9,7 @@
 #include "scene/interaction.glsl"
 #include "scene/light.glsl"
 #include "scene/material.glsl"
+#include "scene/ray_start.glsl"
 #include "scene/textured_material.glsl"
 
 // A vertex of the path with all that its parts ask for.
@@ -55,15 +56,15 @@ bool isTransmissiveSolid(MaterialRecord m) {
     return (m.flags & kMaterialSolid) != 0u && (m.transmission > 0.0 || m.diffuseTransmission > 0.0);
 }
 
-// n and ng must agree about the side of wi.
+// n and ng must agree about the side of wi; from the smooth surface n alone decides, and the mesh may be in the way.
 bool isSameSide(Vertex v, vec3 wi, float localZ) {
-    return (dot(wi, v.surface.ng) > 0.0) == (localZ > 0.0);
+    return v.surface.isLifted ? localZ > 0.0 : (dot(wi, v.surface.ng) > 0.0) == (localZ > 0.0);
 }
 
 // Picks a light and prepares its shadow ray; false: nothing to be had.
 bool nextEvent(Vertex v, vec3 throughput, out ShadowRay shadow) {
-    const LightSample light = sampleLight(frame, unpackReceiver(v.surface.p, v.receiver), v.surface.n,
-                                          sampleBits2D(v.key, kDimensionLight));
+    const LightSample light = sampleLight(frame, unpackReceiver(receivingPoint(v.surface), v.receiver),
+                                          v.surface.n, sampleBits2D(v.key, kDimensionLight));
     const vec3 wi = toLocal(v.basis, light.wi);
     if (!isSameSide(v, light.wi, wi.z))
         return false;
@@ -71,9 +72,9 @@ bool nextEvent(Vertex v, vec3 throughput, out ShadowRay shadow) {
     const float weight = light.isDelta ? 1.0 : misWeight(kMis, light.pdf, bsdfPdf);
     const vec3 arriving = evalBsdf(v.bsdf, v.wo, wi) * light.radiance * (weight / light.pdf);
     shadow.contribution = clamped(throughput * arriving, v.key.vertex);
-    shadow.origin = offsetOrigin(v.surface.p, v.surface.pError, v.surface.ng, light.wi);
+    shadow.origin = rayOrigin(v.surface, light.wi);
     shadow.direction = light.end - shadow.origin;
-    shadow.fromSurface = v.surface.id;
+    shadow.fromSurface = ignoredSurface(v.surface);
     shadow.toSurface = light.surface;
     return light.pdf > 0.0 && shadow.contribution != vec3(0.0);
 }
@@ -83,8 +84,7 @@ bool nextRay(Vertex v, inout Path path, out Ray ray) {
     const BsdfSample next =
         sampleBsdf(v.bsdf, v.wo, sample2D(v.key, kDimensionBsdf), sample1D(v.key, kDimensionLobe));
     const vec3 wi = toWorld(v.basis, next.wi);
-    ray = Ray(offsetOrigin(v.surface.p, v.surface.pError, v.surface.ng, wi), v.surface.id, wi, next.wi.z,
-              v.receiver, kNoInterior);
+    ray = Ray(rayOrigin(v.surface, wi), ignoredSurface(v.surface), wi, next.wi.z, v.receiver, kNoInterior);
     path.throughput *= next.weight;
     path.bsdfPdf = next.pdf * (kMisSurvival != 0u ? v.survival : 1.0);
     path.etaScale *= next.eta * next.eta;
@@ -109,6 +109,8 @@ Vertex makeVertex(Interaction surface, MaterialRecord material, vec3 wo, SampleK
     Vertex v;
     v.surface = surface;
     v.bsdf = surfaceOf(material, surface.isFront);
+    if (isTransmissive(v.bsdf)) // rays to both sides start at one point
+        v.surface.isLifted = false;
     v.basis = shadingBasis(surface, material.anisotropy, material.anisotropyRotation);
     if (sceneHas(kFeatureClearcoat)) // normal maps of the base leave it alone
         v.bsdf.clearcoat.normal = toLocal(v.basis, surface.coatNormal);
@@ -148,7 +150,7 @@ void noteSolids(Ray ray, Interaction surface, float distance, inout NextRays nex
         return;
     const vec3 e = surface.pError;
     const float rounding = 32.0 * max(e.x, max(e.y, e.z)); // covers vertices that were transformed, too
-    const bool passes = dot(next.ray.direction, surface.ng) < 0.0;
+    const bool passes = !surface.isLifted && dot(next.ray.direction, surface.ng) < 0.0;
     next.ray.interior = passes ? passSolid(ray.interior, surface.solid, surface.isFront, distance > rounding)
                                : turnAmongSolids(ray.interior);
     if (solidsState(next.ray.interior) == kSolidsOverlap && solidsState(ray.interior) != kSolidsOverlap)
@@ -193,6 +195,6 @@ NextRays scatter(Hit hit, Ray ray, uint slot, uint bounce, inout Path path) {
 
     // ---- BSDF sampling and roulette ----
     next.goesOn = nextRay(vertex, path, next.ray) && survives(vertex, path, next.survival);
-    noteSolids(ray, surface, hit.t, next);
+    noteSolids(ray, vertex.surface, hit.t, next);
     return next;
 }
