@@ -10,3 +10,4 @@ layout(constant_id = CONSTANT_MIS_SURVIVAL) const uint kMisSurvival = 0u;
 layout(constant_id = CONSTANT_FRESNEL) const uint kFresnel = kFresnelExact;
 layout(constant_id = CONSTANT_MULTIPLE_SCATTERING) const uint kMultipleScattering = 0u;
 layout(constant_id = CONSTANT_TEXTURE_FILTER) const uint kTextureFilter = kTextureFilterBilinear;
+layout(constant_id = CONSTANT_SMOOTH_TERMINATOR) const uint kSmoothTerminator = 1u;

@@ -1,7 +1,10 @@
 // From a hit to the geometry of the surface there.
+#include "lib/bsdf/normal_map.glsl"
+#include "lib/estimator.glsl"
 #include "lib/features.glsl"
 #include "lib/math/octahedral.glsl"
 #include "lib/math/ray_offset.glsl"
+#include "lib/math/smooth_surface.glsl"
 #include "scene/tangent_basis.glsl"
 #include "scene/triangle_record.glsl"
 #include "shared/bindings.h"
@@ -22,6 +25,8 @@ struct Interaction {
     uint material;
     uint solid;    // solid whose boundary this is, or 0; needs kFeatureSolids
     vec3 b;        // barycentrics
+    bool isLifted; // rays to the side of wo start at `lifted`, on the smooth surface that the mesh stands for
+    vec3 lifted;
     // With kFeatureTangents, all flipped with ng:
     vec3 tangent;     // unit length, towards growing u
     vec3 bitangent;
@@ -30,14 +35,37 @@ struct Interaction {
     vec2 anisotropyDirection; // in units of tangent and bitangent
 };
 
+bool isSmoothShaded(TriangleRecord triangle) {
+    return sceneHas(kFeatureShadingNormals) && (triangle.material & kFlatBit) == 0u;
+}
+
+mat3 cornerNormals(SurfaceId surface) {
+    const uvec4 n = texelFetch(triangleNormals, int(attributeIndex(surface)));
+    return mat3(decodeOctahedral(n.x), decodeOctahedral(n.y), decodeOctahedral(n.z));
+}
+
 vec3 shadingNormal(TriangleRecord triangle, vec3 b, vec3 ng) {
-    if (!sceneHas(kFeatureShadingNormals) || (triangle.material & kFlatBit) != 0u)
+    if (!isSmoothShaded(triangle))
         return ng;
-    const uvec4 packedNormals = texelFetch(triangleNormals, int(attributeIndex(triangle.surface)));
-    const vec3 n = b.x * decodeOctahedral(packedNormals.x) + b.y * decodeOctahedral(packedNormals.y) +
-                   b.z * decodeOctahedral(packedNormals.z);
+    const mat3 normals = cornerNormals(triangle.surface);
+    const vec3 n = b.x * normals[0] + b.y * normals[1] + b.z * normals[2];
     const float length2 = dot(n, n);
     return length2 > 1e-12 ? n * inversesqrt(length2) : ng; // opposite corner normals cancel: keep the plane's
+}
+
+// Lower than this share of the longest edge a lift may be the rounding of packed normals.
+const float kLeastLift = 5e-5;
+
+// Lets the surface follow the normals that the mesh gives it: rays start where the smooth surface lies, and the normal is bent
+// as those of normal maps are. On the inner side of a curve the smooth surface lies below, and rays start on the mesh.
+void followNormals(TriangleRecord triangle, vec3 wo, float longestEdge, inout Interaction i) {
+    const float side = i.isFront ? 1.0 : -1.0;
+    const vec3 lift = liftToSmoothSurface(i.p, i.b, mat3(triangle.v0, triangle.v1, triangle.v2),
+                                          side * cornerNormals(triangle.surface), i.ng);
+    i.isLifted = dot(lift, i.ng) > max(kLeastLift * longestEdge, 8.0 * dot(abs(i.ng), i.pError));
+    i.lifted = i.p + lift;
+    i.n = bentNormal(i.n, i.ng, wo);
+    i.coatNormal = i.n;
 }
 
 // The basis that vectors of a texture are given in, on the side of wo. first: of the tangents that go by its coordinates.
@@ -94,10 +122,14 @@ Interaction makeInteraction(Hit hit, vec3 wo) {
     i.material = triangle.material & kMaterialMask;
     i.solid = sceneHas(kFeatureSolids) ? texelFetch(triangleNormals, int(attributeIndex(triangle.surface))).w : 0u;
     i.b = b;
+    i.isLifted = false;
+    i.lifted = i.p;
     i.tangent = i.bitangent = vec3(0.0);
     i.meshNormal = i.coatNormal = i.n;
     i.anisotropyDirection = vec2(1.0, 0.0);
     if (sceneHas(kFeatureTangents))
         setTangents(0u, i);
+    if (kSmoothTerminator != 0u && isSmoothShaded(triangle))
+        followNormals(triangle, wo, longestEdge, i);
     return i;
 }

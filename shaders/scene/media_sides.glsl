@@ -3,6 +3,7 @@
 #include "scene/interaction.glsl"
 #include "scene/material.glsl"
 #include "scene/media.glsl"
+#include "scene/ray_start.glsl"
 
 // The two sides of a surface that a path has met: where the path comes from, and beyond.
 struct MediaSides {
@@ -61,9 +62,9 @@ void chooseIndex(Interaction surface, MediaSides media, SampleKey key, inout Pat
         material.ior = boundaryIndex(media, surface.isFront, channel);
 }
 
-// Whether `wi` leads to the other side than the path came from.
+// Whether `wi` leads to the other side than the path came from; from the smooth surface that a mesh stands for none does.
 bool passes(Interaction surface, vec3 wi) {
-    return dot(wi, surface.ng) < 0.0;
+    return !surface.isLifted && dot(wi, surface.ng) < 0.0;
 }
 
 // What is left of light over `distance` metres from the surface towards wi.
@@ -83,14 +84,14 @@ vec3 besideCoincident(Interaction surface, vec3 wi) {
 // from one starts on the very point, and where two coincide just beside both.
 vec3 nextOrigin(Interaction surface, MediaSides media, vec3 wi) {
     if (!sceneHas(kFeatureSolids) || surface.solid == 0u)
-        return offsetOrigin(surface.p, surface.pError, surface.ng, wi);
+        return rayOrigin(surface, wi);
     return media.touches ? besideCoincident(surface, wi) : surface.p;
 }
 
 // Where a shadow ray starts. Glass blocks it, a boundary that coincides with the surface as well.
 vec3 shadowOrigin(Interaction surface, vec3 wi) {
     if (!sceneHas(kFeatureSolids) || surface.solid == 0u)
-        return offsetOrigin(surface.p, surface.pError, surface.ng, wi);
+        return rayOrigin(surface, wi);
     return besideCoincident(surface, wi);
 }
 

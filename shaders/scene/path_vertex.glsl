@@ -52,26 +52,27 @@ float missLightPdf(Ray ray) {
     return environmentPmf(frame) * environmentPdf(frame, ray.direction, ray.originCosine);
 }
 
-// n and ng must agree about the side of wi.
+// n and ng must agree about the side of wi; from the smooth surface n alone decides, and the mesh may be in the way.
 bool isSameSide(Vertex v, vec3 wi, float localZ) {
-    return (dot(wi, v.surface.ng) > 0.0) == (localZ > 0.0);
+    return v.surface.isLifted ? localZ > 0.0 : (dot(wi, v.surface.ng) > 0.0) == (localZ > 0.0);
 }
 
 // Picks a light and prepares its shadow ray; false: nothing to be had.
 bool nextEvent(Vertex v, vec3 throughput, out ShadowRay shadow) {
-    const LightSample light = sampleLight(frame, unpackReceiver(v.surface.p, v.receiver), v.surface.n,
-                                          sampleBits2D(v.key, kDimensionLight));
+    const LightSample light = sampleLight(frame, unpackReceiver(receivingPoint(v.surface), v.receiver),
+                                          v.surface.n, sampleBits2D(v.key, kDimensionLight));
     const vec3 wi = toLocal(v.basis, light.wi);
     if (!isSameSide(v, light.wi, wi.z))
         return false;
     const float bsdfPdf = pdfBsdf(v.bsdf, v.wo, wi) * (kMisSurvival != 0u ? v.survival : 1.0);
     const float weight = light.isDelta ? 1.0 : misWeight(kMis, light.pdf, bsdfPdf);
     const vec3 arriving = evalBsdf(v.bsdf, v.wo, wi) * light.radiance * (weight / light.pdf);
-    const vec3 left = transmittanceTowards(v.surface, v.media, light.wi, distance(light.end, v.surface.p));
+    const vec3 left =
+        transmittanceTowards(v.surface, v.media, light.wi, distance(light.end, receivingPoint(v.surface)));
     shadow.contribution = clamped(throughput * arriving * left, v.key.vertex);
     shadow.origin = shadowOrigin(v.surface, light.wi);
     shadow.direction = light.end - shadow.origin;
-    shadow.fromSurface = v.surface.id;
+    shadow.fromSurface = ignoredSurface(v.surface);
     shadow.toSurface = light.surface;
     return light.pdf > 0.0 && shadow.contribution != vec3(0.0);
 }
@@ -82,11 +83,12 @@ bool nextRay(Vertex v, inout Path path, out Ray ray) {
         sampleBsdf(v.bsdf, v.wo, sample2D(v.key, kDimensionBsdf), sample1D(v.key, kDimensionLobe));
     const vec3 wi = toWorld(v.basis, next.wi);
     const vec3 origin = nextOrigin(v.surface, v.media, wi);
-    ray = Ray(origin, v.surface.id, wi, next.wi.z, v.receiver, kNoInterior);
+    ray = Ray(origin, ignoredSurface(v.surface), wi, next.wi.z, v.receiver, kNoInterior);
     path.throughput *= next.weight;
     if (sceneHas(kFeatureSolids)) {
         ray.interior = passes(v.surface, wi) ? v.media.beyond : v.media.here;
-        path.throughput *= transmittanceTowards(v.surface, v.media, wi, max(dot(origin - v.surface.p, wi), 0.0));
+        const float started = max(dot(origin - receivingPoint(v.surface), wi), 0.0);
+        path.throughput *= transmittanceTowards(v.surface, v.media, wi, started);
     }
     path.bsdfPdf = next.pdf * (kMisSurvival != 0u ? v.survival : 1.0);
     path.etaScale *= next.eta * next.eta;
@@ -111,6 +113,8 @@ Vertex makeVertex(Interaction surface, MaterialRecord material, vec3 wo, SampleK
     Vertex v;
     v.surface = surface;
     v.bsdf = surfaceOf(material, surface.isFront);
+    if (isTransmissive(v.bsdf) || (sceneHas(kFeatureSolids) && surface.solid != 0u)) // rays to both sides start at one point
+        v.surface.isLifted = false;
     v.basis = shadingBasis(surface, material.anisotropy, material.anisotropyRotation);
     if (sceneHas(kFeatureClearcoat)) // normal maps of the base leave it alone
         v.bsdf.clearcoat.normal = toLocal(v.basis, surface.coatNormal);

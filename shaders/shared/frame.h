@@ -57,6 +57,7 @@ struct FrameParameters {
 #define CONSTANT_MULTIPLE_SCATTERING 9
 #define CONSTANT_TEXTURE_FILTER 10
 #define CONSTANT_FILM_PLANES 12 // planes of the film (scene/film.glsl)
+#define CONSTANT_SMOOTH_TERMINATOR 13
 
 SHARED_CONST uint kProjectionPerspective = 0u;
 SHARED_CONST uint kProjectionOrthographic = 1u;

@@ -41,8 +41,9 @@ struct EstimatorSettings {
     Fresnel fresnel = Fresnel::exact; // reflectance of glass; opaque layers use Schlick's as glTF prescribes
     bool multipleScattering = false;  // rough metal returns what its facets send on to each other
     TextureFilter textureFilter =
-        TextureFilter::bilinear; // stochastic: one texel of four, shaded and then averaged
-    uint32_t maxBounces = 64;    // scattering vertices; 0 shows emission only
+        TextureFilter::bilinear;  // stochastic: one texel of four, shaded and then averaged
+    bool smoothTerminator = true; // smooth-shaded meshes are lit as the smooth surface that normals stand for
+    uint32_t maxBounces = 64;     // scattering vertices; 0 shows emission only
     float clampIndirect =
         std::numeric_limits<float>::infinity(); // biased: largest channel of an indirect contribution
     uint32_t seed = 0;

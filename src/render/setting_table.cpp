@@ -158,6 +158,15 @@ constexpr std::array kRows{
                .panelLabel = "texture filter",
                .panelHelp = "Between texels: the mean of four, or one of the four by chance, which has that "
                             "mean"},
+    SettingRow{.name = "smooth-terminator",
+               .values = oneOf<&E::smoothTerminator>(kOnOff, CONSTANT_SMOOTH_TERMINATOR),
+               .decidesBits = true,
+               .mayChangeMean = true,
+               .help = "Smooth-shaded meshes are lit as the smooth surface that their normals stand for "
+                       "(Hanika 2021); off: their triangles cast shadows on themselves",
+               .panelLabel = "smooth terminator",
+               .panelHelp = "Where the smooth surface turns away from a light, shading fades. Off: coarse "
+                            "triangles turn away one by one, in stairs, and mirrors have black rims"},
     SettingRow{.name = "max-bounces",
                .values = WholeNumber{&E::maxBounces, 0, kMaxBounceLimit, 256},
                .decidesBits = true,

@@ -1,0 +1,199 @@
+// Smooth-shaded meshes of few triangles: they are lit as the smooth surface that their normals stand for.
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "gltf/import.h"
+#include "support/estimator_variants.h"
+#include "support/render_scene.h"
+#include "support/scene_builder.h"
+#include "support/test_device.h"
+
+namespace lavalight::test {
+namespace {
+
+constexpr float kPi = std::numbers::pi_v<float>;
+const glm::vec3 kOrigin(0.0f);
+
+// A sphere of `columns` by `rows` faces around the origin, its poles on the y axis.
+Shape globe(uint32_t columns, uint32_t rows, float radius = 1.0f) {
+    Shape shape;
+    for (uint32_t row = 0; row <= rows; ++row)
+        for (uint32_t column = 0; column < columns; ++column) {
+            const float theta = kPi * static_cast<float>(row) / static_cast<float>(rows);
+            const float phi = 2.0f * kPi * static_cast<float>(column) / static_cast<float>(columns);
+            shape.positions.push_back(radius * glm::vec3(std::sin(theta) * std::cos(phi), std::cos(theta),
+                                                         -std::sin(theta) * std::sin(phi)));
+        }
+    for (uint32_t row = 0; row < rows; ++row)
+        for (uint32_t column = 0; column < columns; ++column) {
+            const uint32_t next = (column + 1) % columns;
+            const glm::uvec4 corners(row * columns + column, (row + 1) * columns + column,
+                                     (row + 1) * columns + next, row * columns + next);
+            if (row + 1 < rows)
+                shape.triangles.emplace_back(corners.x, corners.y, corners.z);
+            if (row > 0)
+                shape.triangles.emplace_back(corners.x, corners.z, corners.w);
+        }
+    return shape;
+}
+
+Scene field(const char* name) {
+    return importGltf(std::filesystem::path(LAVALIGHT_SOURCE_DIR) / "tests/field" / name);
+}
+
+class SmoothTerminator : public DeviceTest {};
+
+// Whatever a mirror reflects, in a white furnace it is 1.
+TEST_F(SmoothTerminator, CoarseMirrorOfTheFieldIsInvisibleInAWhiteFurnace) {
+    Scene scene = field("smooth_mirror.glb");
+    scene.environment = glm::vec3(1.0f);
+    RenderSettings settings = imageSettings(128, 128, 16);
+    expectEveryPixel(renderScene(device(), scene, settings), glm::dvec3(1.0));
+    settings.estimator.smoothTerminator = false;
+    const ImageMean off = meanOf(renderScene(device(), scene, settings).rendering);
+    EXPECT_LT(off.mean.g, 0.99) << "without it, the rim is black";
+}
+
+// A hollow mirror, too: seen from inside, its smooth surface lies behind the mesh.
+TEST_F(SmoothTerminator, CoarseMirrorIsInvisibleFromInsideAsWell) {
+    Material mirror = lambert(glm::vec3(1.0f));
+    mirror.metallic = 1.0f;
+    mirror.roughness = 0.0f;
+    mirror.doubleSided = true;
+    Shape bowl = globe(12, 6);
+    std::erase_if(bowl.triangles, [&](const glm::uvec3& t) {
+        return bowl.positions[t.x].y + bowl.positions[t.y].y + bowl.positions[t.z].y > 0.1f;
+    });
+    const Scene scene = SceneBuilder()
+                            .addSmooth(bowl, kOrigin, mirror)
+                            .environment(glm::vec3(1.0f))
+                            .camera(lookAtOrthographic({0.5f, 3.0f, 1.0f}, kOrigin, 1.2f))
+                            .build();
+    RenderSettings settings = imageSettings(64, 64, 16);
+    settings.estimator.roulette = Roulette::off;
+    settings.estimator.maxBounces = 1024;
+    expectEveryPixel(renderScene(device(), scene, settings), glm::dvec3(1.0));
+}
+
+// All directions above a convex smooth surface are free, and Lambert returns what comes from them.
+TEST_F(SmoothTerminator, CoarseWhiteBallIsInvisibleInAWhiteFurnace) {
+    for (const auto& [columns, rows] : {std::pair{12u, 6u}, {24u, 12u}, {64u, 32u}}) {
+        const Scene scene = SceneBuilder()
+                                .addSmooth(globe(columns, rows), kOrigin, lambert(glm::vec3(1.0f)))
+                                .environment(glm::vec3(1.0f))
+                                .camera(lookAtOrthographic({1.0f, 2.0f, 3.0f}, kOrigin, 1.1f))
+                                .build();
+        RenderSettings settings = imageSettings(48, 48, 64);
+        const Rendering on = renderScene(device(), scene, settings).rendering;
+        for (size_t i = 0; i < on.radiance().pixels.size(); ++i)
+            EXPECT_NEAR(on.radiance().pixels[i].g, 1.0f, 0.02f) << columns << " columns, pixel " << i;
+        EXPECT_NEAR(meanOf(on).mean.g, 1.0, 0.001);
+        settings.estimator.smoothTerminator = false;
+        EXPECT_LT(meanOf(renderScene(device(), scene, settings).rendering).mean.g, 0.9998);
+    }
+}
+
+// Largest difference between the radiance of a smooth sphere under a sun, max(0, n.l), and that of the
+// field's sphere of 24 x 12 faces, more than `border` within its outline. Its camera frames 2.2 m.
+double largestStair(gpu::Device& device, bool smoothTerminator) {
+    const Scene scene = field("low_sphere.glb");
+    constexpr uint32_t size = 96;
+    RenderSettings settings = imageSettings(size, size, 64);
+    settings.estimator.smoothTerminator = smoothTerminator;
+    const Rendering rendering = renderScene(device, scene, settings).rendering;
+    const glm::vec3 light = -scene.punctualLights.at(0).direction;
+    double largest = 0.0;
+    for (uint32_t y = 0; y < size; ++y)
+        for (uint32_t x = 0; x < size; ++x) {
+            const glm::vec2 p = 1.1f * (2.0f * (glm::vec2(x, y) + 0.5f) / static_cast<float>(size) - 1.0f);
+            const float r2 = glm::dot(p, p);
+            if (r2 > 0.95f * 0.95f)
+                continue;
+            const glm::vec3 n(p.x, -p.y, std::sqrt(1.0f - r2));
+            const double expected = std::max(0.0f, glm::dot(n, light));
+            largest = std::max(largest, std::abs(rendering.radiance().pixels[y * size + x].g - expected));
+        }
+    return largest;
+}
+
+TEST_F(SmoothTerminator, ShadowOfACoarseSphereFadesWithoutStairs) {
+    EXPECT_LT(largestStair(device(), true), 0.05);
+    EXPECT_GT(largestStair(device(), false), 0.1);
+}
+
+// The mesh still casts its shadows: nothing comes through it, at any angle.
+TEST_F(SmoothTerminator, NoLightComesThroughAClosedBody) {
+    Material white = lambert(glm::vec3(1.0f));
+    white.doubleSided = true;
+    const auto seenFrom = [&](const Camera& camera, const std::vector<glm::vec3>& lamps) {
+        Scene scene = SceneBuilder().addSmooth(globe(10, 6), kOrigin, white).camera(camera).build();
+        for (const glm::vec3& position : lamps) {
+            PunctualLight lamp;
+            lamp.position = position;
+            lamp.intensity = glm::vec3(100.0f);
+            scene.punctualLights.push_back(lamp);
+        }
+        return meanOf(renderScene(device(), scene, imageSettings(64, 64, 64)).rendering).mean.g;
+    };
+    const Camera inside = lookAt({0.1f, 0.2f, 0.0f}, {1.0f, 0.5f, 0.3f}, 2.0f);
+    const Camera outside = lookAt({1.0f, 2.0f, 3.0f}, kOrigin, 0.7f);
+    const std::vector<glm::vec3> around = {
+        {1.2f, 0, 0}, {0, 1.5f, 0}, {-1, -1, 1}, {0, 0.5f, 3}, {5, -2, -5}};
+    EXPECT_EQ(seenFrom(inside, around), 0.0);
+    EXPECT_EQ(seenFrom(outside, {{0, 0, 0}, {0.7f, 0.3f, 0.2f}}), 0.0);
+    EXPECT_GT(seenFrom(outside, around), 0.1);
+}
+
+TEST_F(SmoothTerminator, FlatMeshesKeepTheirBits) {
+    const Scene scene = SceneBuilder()
+                            .add(globe(12, 6), lambert(glm::vec3(0.8f)))
+                            .add(rectangle({0, 3, 0}, {1, 0, 0}, {0, 0, 1}), light(glm::vec3(5.0f)))
+                            .environment(glm::vec3(0.2f))
+                            .camera(lookAt({1, 2, 4}, kOrigin, 0.8f))
+                            .build();
+    RenderSettings settings = imageSettings(32, 32, 8);
+    const RenderResult on = renderScene(device(), scene, settings);
+    settings.estimator.smoothTerminator = false;
+    EXPECT_EQ(on.filmWords, renderScene(device(), scene, settings).filmWords);
+}
+
+// Coarse smooth bodies of several materials, which shade each other and themselves, under a lamp, a sky, and
+// lights in a tree.
+Scene coarseScene() {
+    Material plastic = lambert({0.7f, 0.3f, 0.2f});
+    plastic.specular = 1.0f;
+    plastic.roughness = 0.4f;
+    Material metal = lambert({0.9f, 0.8f, 0.6f});
+    metal.metallic = 1.0f;
+    metal.roughness = 0.35f;
+    Material leaf = lambert({0.3f, 0.7f, 0.1f});
+    leaf.diffuseTransmission = 0.5f;
+    leaf.diffuseTransmissionColor = {0.9f, 0.8f, 0.2f};
+    SceneBuilder builder;
+    const auto addGlobe = [&](const glm::vec3& center, float radius, const Material& material) {
+        Shape shape = globe(10, 6, radius);
+        for (glm::vec3& position : shape.positions)
+            position += center;
+        builder.addSmooth(shape, center, material);
+    };
+    addGlobe({-1.0f, 0.8f, 0.0f}, 0.8f, lambert(glm::vec3(0.8f)));
+    addGlobe({0.7f, 0.6f, 0.4f}, 0.6f, plastic);
+    addGlobe({0.3f, 1.7f, -0.6f}, 0.6f, metal);
+    addGlobe({1.7f, 1.3f, -0.3f}, 0.5f, leaf);
+    builder.add(rectangle({0, 0, 0}, {0, 0, 4}, {4, 0, 0}), lambert({0.6f, 0.5f, 0.4f}));
+    builder.add(rectangle({-2, 3, 1}, {0.6f, 0, 0}, {0, 0, 0.6f}), light({6, 6, 7}));
+    builder.add(rectangle({2.5f, 1, 1.5f}, {0, 0, 0.6f}, {0, 0.6f, 0}), light({5, 3, 2}));
+    return builder.environment({0.2f, 0.25f, 0.3f}).camera(lookAt({0.5f, 2, 6}, {0, 0.9f, 0}, 0.6f)).build();
+}
+
+TEST_F(SmoothTerminator, EverySettingHasTheMeanOfTheDefaultOnCoarseBodies) {
+    expectOneMean(device(), coarseScene(), singleVariants(), 768, 0.4);
+}
+
+} // namespace
+} // namespace lavalight::test
