@@ -17,7 +17,8 @@ float bitangentSign(uint flags, uint corner) {
 }
 
 // At barycentrics b, around the normal n that the mesh gives to its front: tangent and bitangent as interpolated, not
-// made perpendicular, which is how normal maps are baked. A mesh without tangents gets some basis. first: of the plane of tangents.
+// made perpendicular, which is how normal maps are baked. A mesh without tangents gets some basis. first: of the plane of
+// tangents.
 Basis tangentBasis(SurfaceId surface, uint first, vec3 b, vec3 n) {
     const TriangleTangents t = fetchTriangleTangents(first + attributeIndex(surface));
     const vec3 tangent =
