@@ -142,7 +142,7 @@ TEST_F(CoatedEmission, IsFoundAlikeBySamplingLightsAndByHittingThem) {
         return v.settings.roulette != EstimatorSettings{}.roulette ||
                v.settings.hemisphere != Hemisphere::cosine;
     });
-    expectOneMean(device(), scene, variants, 512, 0.3);
+    expectOneMean(device(), scene, variants, {512, 0.3});
 }
 
 } // namespace

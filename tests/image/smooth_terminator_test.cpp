@@ -192,7 +192,21 @@ Scene coarseScene() {
 }
 
 TEST_F(SmoothTerminator, EverySettingHasTheMeanOfTheDefaultOnCoarseBodies) {
-    expectOneMean(device(), coarseScene(), singleVariants(), 768, 0.4);
+    expectOneMean(device(), coarseScene(), singleVariants(), {768, 0.4});
+}
+
+// A lamp that lies in the planes of many triangles, seen from beside: rays that started elsewhere, or went by
+// other sides, would differ here by tenths.
+TEST_F(SmoothTerminator, LightsAreFoundAlikeBySamplingAndByHittingWhereTheShadowBegins) {
+    const Scene scene = SceneBuilder()
+                            .addSmooth(globe(12, 6), kOrigin, lambert(glm::vec3(0.8f)))
+                            .add(rectangle({3, 0, 0}, {0, 0, 1}, {0, 1, 0}), light(glm::vec3(8.0f)))
+                            .camera(lookAtOrthographic({-0.8f, 0.3f, 4.0f}, {0.0f, 0.0f, 0.0f}, 0.6f))
+                            .build();
+    std::vector<Variant> variants = singleVariants();
+    std::erase_if(variants,
+                  [](const Variant& v) { return v.settings.roulette != EstimatorSettings{}.roulette; });
+    expectOneMean(device(), scene, variants, {1024, 0.4});
 }
 
 } // namespace
