@@ -11,10 +11,10 @@ bool isDispersive(MaterialRecord material) {
 const uint kMiddleChannel = 1u;
 
 // The index in red, green or blue: Cauchy's curve between Fraunhofer's lines C, d and F as a straight one; dispersion = 20 /
-// Abbe number.
+// Abbe number. 0, an infinite index, stays.
 float channelIor(float ior, float dispersion, uint channel) {
     const float halfSpread = (ior - 1.0) * 0.025 * dispersion;
-    return dispersion > 0.0 ? max(ior + (float(channel) - 1.0) * halfSpread, 1.0) : ior;
+    return dispersion > 0.0 && ior > 0.0 ? max(ior + (float(channel) - 1.0) * halfSpread, 1.0) : ior;
 }
 
 // Chooses by what the channels carry, so that the largest weight of a path does not grow; one that is alone stays as it is.
