@@ -9,11 +9,15 @@
 
 layout(set = 0, binding = BINDING_SOLIDS) uniform utextureBuffer solids; // kSolidTexels each
 
-SolidRecord mediumOf(InteriorList list) {
-    const int texel = int(solidAround(list) * kSolidTexels);
+SolidRecord fetchSolid(uint index) {
+    const int texel = int(index * kSolidTexels);
     const vec4 a = uintBitsToFloat(texelFetch(solids, texel));
     const vec4 b = uintBitsToFloat(texelFetch(solids, texel + 1));
     return SolidRecord(a.xyz, a.w, b.x, float[3](0.0, 0.0, 0.0));
+}
+
+SolidRecord mediumOf(InteriorList list) {
+    return fetchSolid(solidAround(list));
 }
 
 // Beer-Lambert, over `distance` metres.

@@ -2,6 +2,7 @@
 // Passes on what the scene loads through texel buffers, as loaded.
 #include "lib/math/ray_offset.glsl"
 #include "scene/light.glsl"
+#include "scene/media.glsl"
 #include "scene/tangent_basis.glsl"
 #include "scene/intersect.glsl"
 
@@ -9,6 +10,7 @@ layout(local_size_x = 1) in;
 layout(set = 0, binding = 48, std430) writeonly buffer BvhNodeOut { BvhNode bvhNode[]; };
 layout(set = 0, binding = 49, std430) writeonly buffer TriangleRecordOut { TriangleRecord triangleRecord[]; };
 layout(set = 0, binding = 51, std430) writeonly buffer MaterialRecordOut { MaterialRecord material[]; };
+layout(set = 0, binding = 60, std430) writeonly buffer SolidRecordOut { SolidRecord solid[]; };
 layout(set = 0, binding = 52, std430) writeonly buffer LightRecordOut { LightRecord light[]; };
 layout(set = 0, binding = 54, std430) writeonly buffer PunctualRecordOut { PunctualRecord punctual[]; };
 layout(set = 0, binding = 55, std430) writeonly buffer LightTreeRecordOut { LightTreeRecord lightTreeNode[]; };
@@ -21,6 +23,7 @@ void main() {
     bvhNode[1] = loadNode(1u);
     triangleRecord[1] = loadTriangle(1u);
     material[1] = fetchMaterial(1u);
+    solid[1] = fetchSolid(1u);
     light[1] = fetchLight(1u);
     punctual[1] = fetchPunctual(1u);
     lightTreeNode[1] = fetchLightTreeNode(1u);

@@ -23,9 +23,9 @@ const BvhNode kBvhNode{
     {1, 2, 3}, 4, {5, 6, {7, 8}}, {{9, 10}, {11, 12}, {13, 14}}, {{15, 16}, {17, 18}, {19, 20}}};
 const TriangleRecord kTriangleRecord{{1, 2, 3}, {4}, {5, 6, 7}, 8, {9, 10, 11}, 12};
 const MaterialRecord kMaterialRecord{
-    {1, 2, 3}, 4,  {5, 6, 7},    8,  {9, 10, 11}, 12,           13, 14, 15,           16, 17, 18,
-    19,        20, {21, 22, 23}, 24, 25,          26,           27, 28, {29, 30, 31}, 32, 33, 34,
-    35,        36, 37,           38, {39, 40},    {41, 42, 43}, 44};
+    {1, 2, 3}, 4,  {5, 6, 7}, 8,  {9, 10, 11},  12, 13, 14, 15, 16, 17, 18, 19, 20, {21, 22, 23}, 24,
+    25,        26, 27,        28, {29, 30, 31}, 32, 33, 34, 35, 36, 37, 38, 39, 40, {41, 42, 43}, 44};
+const SolidRecord kSolidRecord{{1, 2, 3}, 4, 5, {}};
 const LightRecord kLightRecord{1, 2, 3, 4};
 const PunctualRecord kPunctualRecord{{1, 2, 3}, 4, {5, 6, 7}, 8, {9, 10, 11}, 12, 13, {}};
 const LightTreeRecord kLightTreeRecord{{1, 2, 3}, 4, 5, 6, 7, 8, 9, {}};
@@ -82,6 +82,7 @@ TEST_F(FetchedRecords, ArriveMemberByMember) {
     input("bvhNodes", kBvhNode);
     input("triangles", kTriangleRecord);
     input("materials", kMaterialRecord);
+    input("solids", kSolidRecord);
     input("lights", kLightRecord);
     input("punctuals", kPunctualRecord);
     input("lightTree", kLightTreeRecord);
@@ -92,6 +93,7 @@ TEST_F(FetchedRecords, ArriveMemberByMember) {
     const gpu::Buffer& node = output<BvhNode>("BvhNodeOut");
     const gpu::Buffer& triangle = output<TriangleRecord>("TriangleRecordOut");
     const gpu::Buffer& material = output<MaterialRecord>("MaterialRecordOut");
+    const gpu::Buffer& solid = output<SolidRecord>("SolidRecordOut");
     const gpu::Buffer& light = output<LightRecord>("LightRecordOut");
     const gpu::Buffer& punctual = output<PunctualRecord>("PunctualRecordOut");
     const gpu::Buffer& lightTreeNode = output<LightTreeRecord>("LightTreeRecordOut");
@@ -103,6 +105,7 @@ TEST_F(FetchedRecords, ArriveMemberByMember) {
     expectSecond(node, kBvhNode);
     expectSecond(triangle, kTriangleRecord);
     expectSecond(material, kMaterialRecord);
+    expectSecond(solid, kSolidRecord);
     expectSecond(light, kLightRecord);
     expectSecond(punctual, kPunctualRecord);
     expectSecond(lightTreeNode, kLightTreeRecord);
