@@ -31,7 +31,7 @@ TEST(Ledger, NamesEveryCauseWithItsFigures) {
     scene.openSolids = {"wax", "pond"};
     const FilmTallies tallies{11, 22, 33, 0.25, 44, 1, 55, 66};
     const auto ledger = makeLedger(scene, RenderSettings(), tallies, StopReason::samples);
-    ASSERT_EQ(ledger.size(), 8u);
+    ASSERT_EQ(ledger.size(), 9u);
     const std::map<std::string, std::string> figures{{"dropped-samples", "11"},
                                                      {"saturated-sums", "22"},
                                                      {"cut-paths", "33"},
