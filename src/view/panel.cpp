@@ -41,7 +41,7 @@ drawPanel(ViewState& view,
     PanelAnswer answer;
     const float em = ImGui::GetFontSize();
     ImGui::SetNextWindowPos(ImVec2(em, em), ImGuiCond_FirstUseEver);
-    ImGui::SetNextWindowSize(ImVec2(24.0f * em, 36.0f * em), ImGuiCond_FirstUseEver);
+    ImGui::SetNextWindowSize(ImVec2(24.0f * em, 39.0f * em), ImGuiCond_FirstUseEver);
     if (ImGui::Begin("Lavalight", &view.showsPanel, ImGuiWindowFlags_NoSavedSettings)) {
         ImGui::PushItemWidth(10.0f * em);
         ImGui::TextDisabled("F1: keys, Tab: hides this");

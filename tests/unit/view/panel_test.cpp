@@ -42,7 +42,7 @@ class PanelTest : public testing::Test {
         ImGui::CreateContext();
         ImGuiIO& io = ImGui::GetIO();
         io.IniFilename = nullptr;
-        io.DisplaySize = ImVec2(800.0f, 1100.0f);
+        io.DisplaySize = ImVec2(800.0f, 1000.0f);
         io.DeltaTime = 0.1f;
         unsigned char* pixels = nullptr;
         int width = 0;
