@@ -139,7 +139,7 @@ void packTangentPlanes(const Scene& scene, std::vector<MaterialRecord>& packed) 
     const uint32_t planes = tangentPlanes(scene);
     const auto triangles = static_cast<uint32_t>(scene.triangleCount());
     for (size_t i = 0; i < packed.size() && planes > 1; ++i) {
-        const TangentFrames wanted = tangentFrames(scene.materials[i]);
+        const TangentSpaces wanted = tangentSpaces(scene.materials[i]);
         packed[i].coatTangents = wanted.coat < planes ? wanted.coat * triangles : 0u;
         packed[i].anisotropyTangents = wanted.anisotropy < planes ? wanted.anisotropy * triangles : 0u;
     }

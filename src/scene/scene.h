@@ -114,7 +114,7 @@ struct Mesh {
     // Unit length, xyz towards growing u; w: 1 or -1, bitangent = w * cross(normal, tangent). Empty: none.
     std::vector<glm::vec4> tangents{};
     // Tangents for textures of its material whose coordinates go other ways: one list for each of
-    // tangentFrames() (scene/tangents.h) after the first, empty where the mesh lacks the coordinates. None:
+    // tangentSpaces() (scene/tangents.h) after the first, empty where the mesh lacks the coordinates. None:
     // those above serve all.
     std::vector<std::vector<glm::vec4>> furtherTangents{};
     uint32_t solid = 0; // solid that it bounds, or helps to: 1 + an index into Scene::solids; 0: none

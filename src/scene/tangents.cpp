@@ -14,14 +14,14 @@ namespace lavalight {
 namespace {
 
 // The direction of growing u on one triangle, and whether its picture shows mirrored from the front.
-struct UvFrame {
+struct UvBasis {
     glm::vec3 tangent{0.0f}; // unit length; zero where the uvs have no area
     bool isMirrored = false;
 };
 
 // Two edges are two equations, edge = du * tangent + dv * bitangent; Cramer's rule solves them. Only the sign
 // of the determinant is kept of its value: it may be tiny. glTF's v grows downwards, the bitangent upwards.
-UvFrame uvFrame(const Mesh& mesh, const glm::uvec3& t, const std::vector<glm::vec2>& uvs) {
+UvBasis uvBasis(const Mesh& mesh, const glm::uvec3& t, const std::vector<glm::vec2>& uvs) {
     const glm::dvec3 origin(mesh.positions[t.x]);
     const glm::dvec3 edge1 = glm::dvec3(mesh.positions[t.y]) - origin;
     const glm::dvec3 edge2 = glm::dvec3(mesh.positions[t.z]) - origin;
@@ -98,11 +98,11 @@ std::vector<uint32_t> weld(const Mesh& mesh, const std::vector<glm::vec2>& uvs) 
 
 // Gives corners of mirrored triangles vertices of their own where plain triangles use them too. Returns
 // which vertices are mirrored.
-std::vector<bool> splitMirrored(Mesh& mesh, const std::vector<UvFrame>& frames) {
+std::vector<bool> splitMirrored(Mesh& mesh, const std::vector<UvBasis>& spaces) {
     const size_t count = mesh.positions.size();
     std::vector<bool> isPlain(count, false);
-    for (size_t i = 0; i < frames.size(); ++i) {
-        for (int corner = 0; corner < 3 && !frames[i].isMirrored; ++corner)
+    for (size_t i = 0; i < spaces.size(); ++i) {
+        for (int corner = 0; corner < 3 && !spaces[i].isMirrored; ++corner)
             isPlain[mesh.triangles[i][corner]] = true;
     }
     std::vector<uint32_t> order(count);
@@ -110,8 +110,8 @@ std::vector<bool> splitMirrored(Mesh& mesh, const std::vector<UvFrame>& frames) 
         order[i] = static_cast<uint32_t>(i);
     std::vector<bool> isMirrored(count, false);
     std::unordered_map<uint32_t, uint32_t> copies;
-    for (size_t i = 0; i < frames.size(); ++i) {
-        for (int corner = 0; corner < 3 && frames[i].isMirrored; ++corner) {
+    for (size_t i = 0; i < spaces.size(); ++i) {
+        for (int corner = 0; corner < 3 && spaces[i].isMirrored; ++corner) {
             uint32_t& vertex = mesh.triangles[i][corner];
             if (isPlain[vertex]) {
                 const auto [copy, isNew] = copies.try_emplace(vertex, static_cast<uint32_t>(order.size()));
@@ -132,42 +132,42 @@ std::vector<bool> splitMirrored(Mesh& mesh, const std::vector<UvFrame>& frames) 
 using Sums = std::array<glm::vec3, 2>;
 
 // The triangles' tangents, laid along the surface and weighted by angle, added up at each welded vertex.
-std::vector<Sums> sumTangents(const Mesh& mesh, const std::vector<UvFrame>& frames,
+std::vector<Sums> sumTangents(const Mesh& mesh, const std::vector<UvBasis>& spaces,
                               const std::vector<uint32_t>& welded) {
     std::vector<Sums> sums(mesh.positions.size(), Sums{glm::vec3(0.0f), glm::vec3(0.0f)});
-    for (size_t i = 0; i < frames.size(); ++i) {
+    for (size_t i = 0; i < spaces.size(); ++i) {
         const glm::uvec3& triangle = mesh.triangles[i];
         for (int corner = 0; corner < 3; ++corner) {
             const uint32_t vertex = triangle[corner];
-            const glm::vec3 along = alongSurface(frames[i].tangent, mesh.normals[vertex]);
-            sums[welded[vertex]][frames[i].isMirrored] += along * cornerAngle(mesh, triangle, corner);
+            const glm::vec3 along = alongSurface(spaces[i].tangent, mesh.normals[vertex]);
+            sums[welded[vertex]][spaces[i].isMirrored] += along * cornerAngle(mesh, triangle, corner);
         }
     }
     return sums;
 }
 
-bool hasCoordinates(const Mesh& mesh, const TangentFrame& frame) {
-    return frame.uvSet < mesh.uvs.size() && !mesh.uvs[frame.uvSet].empty();
+bool hasCoordinates(const Mesh& mesh, const TangentSpace& space) {
+    return space.uvSet < mesh.uvs.size() && !mesh.uvs[space.uvSet].empty();
 }
 
-std::vector<glm::vec2> coordinatesOf(const Mesh& mesh, const TangentFrame& frame) {
-    std::vector<glm::vec2> uvs = mesh.uvs[frame.uvSet];
+std::vector<glm::vec2> coordinatesOf(const Mesh& mesh, const TangentSpace& space) {
+    std::vector<glm::vec2> uvs = mesh.uvs[space.uvSet];
     for (glm::vec2& uv : uvs)
-        uv = {glm::dot(frame.uRow, uv), glm::dot(frame.vRow, uv)};
+        uv = {glm::dot(space.uRow, uv), glm::dot(space.vRow, uv)};
     return uvs;
 }
 
 // Tangents of a mesh with normals; may give it further vertices.
-std::vector<glm::vec4> tangentsAlong(Mesh& mesh, const TangentFrame& frame) {
-    std::vector<glm::vec2> uvs = coordinatesOf(mesh, frame);
-    std::vector<UvFrame> frames;
-    frames.reserve(mesh.triangles.size());
+std::vector<glm::vec4> tangentsAlong(Mesh& mesh, const TangentSpace& space) {
+    std::vector<glm::vec2> uvs = coordinatesOf(mesh, space);
+    std::vector<UvBasis> spaces;
+    spaces.reserve(mesh.triangles.size());
     for (const glm::uvec3& triangle : mesh.triangles)
-        frames.push_back(uvFrame(mesh, triangle, uvs));
-    const std::vector<bool> isMirrored = splitMirrored(mesh, frames);
-    uvs = coordinatesOf(mesh, frame);
+        spaces.push_back(uvBasis(mesh, triangle, uvs));
+    const std::vector<bool> isMirrored = splitMirrored(mesh, spaces);
+    uvs = coordinatesOf(mesh, space);
     const std::vector<uint32_t> welded = weld(mesh, uvs);
-    const std::vector<Sums> sums = sumTangents(mesh, frames, welded);
+    const std::vector<Sums> sums = sumTangents(mesh, spaces, welded);
     std::vector<glm::vec4> tangents(mesh.positions.size());
     for (size_t i = 0; i < tangents.size(); ++i) {
         const glm::vec3& normal = mesh.normals[i];
@@ -180,13 +180,13 @@ std::vector<glm::vec4> tangentsAlong(Mesh& mesh, const TangentFrame& frame) {
 
 } // namespace
 
-TangentFrames tangentFrames(const Material& material) {
-    TangentFrames wanted;
-    const auto indexOf = [&](const TangentFrame& frame) {
-        const auto known = std::find(wanted.frames.begin(), wanted.frames.end(), frame);
-        const auto index = static_cast<uint32_t>(known - wanted.frames.begin());
-        if (known == wanted.frames.end())
-            wanted.frames.push_back(frame);
+TangentSpaces tangentSpaces(const Material& material) {
+    TangentSpaces wanted;
+    const auto indexOf = [&](const TangentSpace& space) {
+        const auto known = std::find(wanted.spaces.begin(), wanted.spaces.end(), space);
+        const auto index = static_cast<uint32_t>(known - wanted.spaces.begin());
+        if (known == wanted.spaces.end())
+            wanted.spaces.push_back(space);
         return index;
     };
     const auto indexOfSlot = [&](TextureSlot slot) {
@@ -198,8 +198,8 @@ TangentFrames tangentFrames(const Material& material) {
     if (material.anisotropy == 0.0f)
         return wanted;
     wanted.anisotropy = indexOfSlot(TextureSlot::anisotropy);
-    if (wanted.frames.empty())
-        wanted.frames.emplace_back();
+    if (wanted.spaces.empty())
+        wanted.spaces.emplace_back();
     return wanted;
 }
 
@@ -208,18 +208,18 @@ glm::vec3 anyTangent(const glm::vec3& normal) {
     return glm::normalize(axis - normal * glm::dot(normal, axis));
 }
 
-void generateTangents(Mesh& mesh, std::span<const TangentFrame> frames) {
-    const bool hasAny = std::any_of(frames.begin(), frames.end(),
-                                    [&](const TangentFrame& frame) { return hasCoordinates(mesh, frame); });
+void generateTangents(Mesh& mesh, std::span<const TangentSpace> spaces) {
+    const bool hasAny = std::any_of(spaces.begin(), spaces.end(),
+                                    [&](const TangentSpace& space) { return hasCoordinates(mesh, space); });
     if (mesh.triangles.empty() || !hasAny)
         return;
     const bool isFlat = mesh.normals.empty();
     if (isFlat)
         makeFlat(mesh);
-    for (size_t i = 0; i < frames.size(); ++i) {
+    for (size_t i = 0; i < spaces.size(); ++i) {
         std::vector<glm::vec4> tangents;
-        if (hasCoordinates(mesh, frames[i]))
-            tangents = tangentsAlong(mesh, frames[i]);
+        if (hasCoordinates(mesh, spaces[i]))
+            tangents = tangentsAlong(mesh, spaces[i]);
         if (i == 0)
             mesh.tangents = std::move(tangents);
         else

@@ -1,4 +1,4 @@
-// The frames that normal maps, clear coats and anisotropy are given in: they follow the coordinates of their
+// The spaces that normal maps, clear coats and anisotropy are given in: they follow the coordinates of their
 // own texture (KHR_texture_transform), so that the same coordinates, made by a transform or stored, give the
 // same image.
 #include <cmath>
@@ -82,7 +82,7 @@ class TextureSpace : public DeviceTest {
 
     // What the import does for a mesh without tangents.
     [[nodiscard]] double valueOf(Scene scene) {
-        generateTangents(scene.meshes[0], tangentFrames(scene.materials[0]).frames);
+        generateTangents(scene.meshes[0], tangentSpaces(scene.materials[0]).spaces);
         return meanOf(renderScene(device(), scene, imageSettings(4, 4, 4)).rendering).mean.g;
     }
 
@@ -137,7 +137,7 @@ TEST_F(TextureSpace, TransformsOfATextureGiveTheImageOfTheCoordinatesThatTheyMak
     }
 }
 
-// A flat normal map of coordinates as stored leads; the others have frames of their own.
+// A flat normal map of coordinates as stored leads; the others have spaces of their own.
 TEST_F(TextureSpace, EachTextureGoesByItsOwnCoordinates) {
     for (const TextureSlot slot : {TextureSlot::clearcoatNormal, TextureSlot::anisotropy})
         for (const Transform& t : kTransforms) {
@@ -161,7 +161,7 @@ TEST_F(TextureSpace, TangentsOfTheFileStayAsGiven) {
     for (const TextureSlot slot : kSlots) {
         Scene plain = quad(surfaceFor(slot));
         put(plain, slot, textureOf(0));
-        generateTangents(plain.meshes[0], tangentFrames(plain.materials[0]).frames);
+        generateTangents(plain.meshes[0], tangentSpaces(plain.materials[0]).spaces);
         const double given = meanOf(renderScene(device(), plain, imageSettings(4, 4, 4)).rendering).mean.g;
         Scene turned = plain;
         put(turned, slot, transformed(kTransforms[0]));

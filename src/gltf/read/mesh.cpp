@@ -65,8 +65,8 @@ Extent extentOf(const GltfDocument& document, JsonView primitive, const std::vec
         return {};
     const Material& material =
         materials[materialOf(primitive, document.variant).value_or(materials.size() - 1)];
-    const size_t frames = std::max<size_t>(tangentFrames(material).frames.size(), 1); // or the file's own
-    size_t vertexBytes = sizeof(glm::vec3) + frames * sizeof(glm::vec4);
+    const size_t spaces = std::max<size_t>(tangentSpaces(material).spaces.size(), 1); // or the file's own
+    size_t vertexBytes = sizeof(glm::vec3) + spaces * sizeof(glm::vec4);
     for (const auto& [attribute, accessor] : primitive["attributes"].members()) {
         vertexBytes += attribute == "NORMAL" ? sizeof(glm::vec3) : 0;
         vertexBytes += attribute == "COLOR_0" ? sizeof(glm::vec4) : 0;
@@ -282,7 +282,7 @@ class MeshReader {
     // Takes a mesh in world space, with tangents where its material wants them.
     void keep(Mesh mesh) {
         if (mesh.tangents.empty())
-            generateTangents(mesh, tangentFrames(materials_[mesh.material]).frames);
+            generateTangents(mesh, tangentSpaces(materials_[mesh.material]).spaces);
         if (!mesh.triangles.empty())
             geometry_.meshes.push_back(std::move(mesh));
     }

@@ -12,7 +12,7 @@
 namespace lavalight::test {
 namespace {
 
-const std::vector kPlain{TangentFrame{}};
+const std::vector kPlain{TangentSpace{}};
 
 // Two triangles of the unit square, facing +z, with one picture mirrored at the diagonal x = y if asked.
 //   3---2
@@ -82,7 +82,7 @@ TEST(Tangents, WithoutUvAreaTheyAreUnitVectorsAlongTheSurfaceAndWithoutUvsThereA
         EXPECT_EQ(tangent.z, 0.0f);
     }
     Mesh bare = square(false);
-    generateTangents(bare, std::vector{TangentFrame{.uvSet = 1}});
+    generateTangents(bare, std::vector{TangentSpace{.uvSet = 1}});
     EXPECT_TRUE(bare.tangents.empty());
 }
 
@@ -92,16 +92,16 @@ void setTexture(Material& material, TextureSlot slot, const Texture& texture) {
 
 TEST(Tangents, MaterialsWantThemForNormalTexturesAndAnisotropy) {
     Material material;
-    EXPECT_TRUE(tangentFrames(material).frames.empty());
+    EXPECT_TRUE(tangentSpaces(material).spaces.empty());
     material.anisotropy = 0.5f;
-    EXPECT_EQ(tangentFrames(material).frames, kPlain);
+    EXPECT_EQ(tangentSpaces(material).spaces, kPlain);
     setTexture(material, TextureSlot::anisotropy, Texture{.uvSet = 2});
-    EXPECT_EQ(tangentFrames(material).frames, std::vector{TangentFrame{.uvSet = 2}});
-    EXPECT_EQ(tangentFrames(material).anisotropy, 0u);
+    EXPECT_EQ(tangentSpaces(material).spaces, std::vector{TangentSpace{.uvSet = 2}});
+    EXPECT_EQ(tangentSpaces(material).anisotropy, 0u);
     setTexture(material, TextureSlot::normal, Texture{.uvSet = 1});
-    EXPECT_EQ(tangentFrames(material).frames,
-              (std::vector{TangentFrame{.uvSet = 1}, TangentFrame{.uvSet = 2}}));
-    EXPECT_EQ(tangentFrames(material).anisotropy, 1u);
+    EXPECT_EQ(tangentSpaces(material).spaces,
+              (std::vector{TangentSpace{.uvSet = 1}, TangentSpace{.uvSet = 2}}));
+    EXPECT_EQ(tangentSpaces(material).anisotropy, 1u);
 }
 
 TEST(Tangents, FramesAreThoseOfTheTexturesCoordinatesAndEachIsThereOnce) {
@@ -109,19 +109,19 @@ TEST(Tangents, FramesAreThoseOfTheTexturesCoordinatesAndEachIsThereOnce) {
     material.anisotropy = 0.5f;
     // A quarter turn, moved.
     const Texture turned{.uvSet = 1, .uRow = {0, 1, 0.3f}, .vRow = {-1, 0, 0.4f}};
-    const TangentFrame quarter{.uvSet = 1, .uRow = {0, 1}, .vRow = {-1, 0}};
+    const TangentSpace quarter{.uvSet = 1, .uRow = {0, 1}, .vRow = {-1, 0}};
     setTexture(material, TextureSlot::clearcoatNormal, turned);
-    EXPECT_EQ(tangentFrames(material).frames, std::vector{quarter}); // anisotropy without a texture follows
+    EXPECT_EQ(tangentSpaces(material).spaces, std::vector{quarter}); // anisotropy without a texture follows
     setTexture(material, TextureSlot::normal, Texture{});
     setTexture(material, TextureSlot::anisotropy, turned);
-    const TangentFrames wanted = tangentFrames(material);
-    EXPECT_EQ(wanted.frames, (std::vector{TangentFrame{}, quarter}));
+    const TangentSpaces wanted = tangentSpaces(material);
+    EXPECT_EQ(wanted.spaces, (std::vector{TangentSpace{}, quarter}));
     EXPECT_EQ(wanted.coat, 1u);
     EXPECT_EQ(wanted.anisotropy, 1u);
 }
 
-// A bent sheet of 4 x 4 squares with normals, whose coordinates are the picture of `frame`.
-Mesh sheet(const TangentFrame& frame, bool isFlat) {
+// A bent sheet of 4 x 4 squares with normals, whose coordinates are the picture of `space`.
+Mesh sheet(const TangentSpace& space, bool isFlat) {
     Mesh mesh;
     mesh.uvs.resize(1);
     for (int y = 0; y <= 4; ++y)
@@ -130,7 +130,7 @@ Mesh sheet(const TangentFrame& frame, bool isFlat) {
             mesh.positions.emplace_back(x, 0.7f * static_cast<float>(y), 0.1f * static_cast<float>(x * y));
             if (!isFlat)
                 mesh.normals.push_back(glm::normalize(glm::vec3(-0.1f * static_cast<float>(y), 0.1f, 1.0f)));
-            mesh.uvs[0].emplace_back(glm::dot(frame.uRow, uv), glm::dot(frame.vRow, uv));
+            mesh.uvs[0].emplace_back(glm::dot(space.uRow, uv), glm::dot(space.vRow, uv));
         }
     for (uint32_t y = 0; y < 4; ++y)
         for (uint32_t x = 0; x < 4; ++x) {
@@ -145,7 +145,7 @@ Mesh sheet(const TangentFrame& frame, bool isFlat) {
 TEST(Tangents, FrameOfATransformIsThatOfTheCoordinatesThatItMakes) {
     const float c = std::cos(0.7f);
     const float s = std::sin(0.7f);
-    const std::vector<TangentFrame> frames = {
+    const std::vector<TangentSpace> spaces = {
         {0, {1, 0}, {0, 1}},         {0, {0, 1}, {-1, 0}},
         {0, {c, s}, {-s, c}},        {0, {-1, 0}, {0, 1}}, // mirrored
         {0, {1, 0}, {0, -1}},        {0, {-1, 0}, {0, -1}},
@@ -153,10 +153,10 @@ TEST(Tangents, FrameOfATransformIsThatOfTheCoordinatesThatItMakes) {
     };
     for (const bool isFlat : {false, true}) {
         Mesh all = sheet({}, isFlat);
-        generateTangents(all, frames);
-        ASSERT_EQ(all.furtherTangents.size(), frames.size() - 1);
-        for (size_t i = 0; i < frames.size(); ++i) {
-            Mesh baked = sheet(frames[i], isFlat);
+        generateTangents(all, spaces);
+        ASSERT_EQ(all.furtherTangents.size(), spaces.size() - 1);
+        for (size_t i = 0; i < spaces.size(); ++i) {
+            Mesh baked = sheet(spaces[i], isFlat);
             generateTangents(baked, kPlain);
             const std::vector<glm::vec4>& ours = i == 0 ? all.tangents : all.furtherTangents[i - 1];
             ASSERT_EQ(ours.size(), all.positions.size());
@@ -164,17 +164,17 @@ TEST(Tangents, FrameOfATransformIsThatOfTheCoordinatesThatItMakes) {
                 for (int corner = 0; corner < 3; ++corner) {
                     const glm::vec4& a = ours[all.triangles[t][corner]];
                     const glm::vec4& b = baked.tangents.at(baked.triangles[t][corner]);
-                    EXPECT_LT(glm::length(a - b), 1e-5f) << "frame " << i;
+                    EXPECT_LT(glm::length(a - b), 1e-5f) << "space " << i;
                 }
         }
     }
 }
 
-// The second frame mirrors one of two triangles, so that it needs vertices that the first does not.
+// The second space mirrors one of two triangles, so that it needs vertices that the first does not.
 TEST(Tangents, FramesOfSeveralUvSetsShareTheirVertices) {
     Mesh mesh = square(false);
     mesh.uvs.push_back(square(true).uvs[0]);
-    generateTangents(mesh, std::vector{TangentFrame{}, TangentFrame{.uvSet = 1}, TangentFrame{.uvSet = 7}});
+    generateTangents(mesh, std::vector{TangentSpace{}, TangentSpace{.uvSet = 1}, TangentSpace{.uvSet = 7}});
     EXPECT_EQ(mesh.positions.size(), 6u);
     ASSERT_EQ(mesh.furtherTangents.size(), 2u);
     EXPECT_TRUE(mesh.furtherTangents[1].empty());
