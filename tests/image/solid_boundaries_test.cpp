@@ -84,6 +84,23 @@ TEST_F(SolidBoundaries, ThatAreHiddenAreNoVertices) {
     expectEveryPixel(result, over(2.0));
 }
 
+// Shadow rays stop at a hidden boundary, so that only paths find what is behind it.
+TEST_F(SolidBoundaries, ThatAreHiddenLeaveLightBehindThemWhole) {
+    const auto lit = [](bool hasHidden) {
+        SceneBuilder builder;
+        builder.add(box({-2, -2, -2}, {2, 2, 2}), glassOf(1.0f, kMetreColor));
+        builder.add(squareAt(-1.0f, 1.5f), lambert(glm::vec3(0.8f)));
+        builder.add(insideOut(squareAt(1.0f, 0.7f)), light(glm::vec3(3.0f)));
+        if (hasHidden)
+            builder.add(box({-5, -5, -0.2f}, {5, 5, 5}), glassOf(1.7f));
+        return builder.camera(down(0.5f)).build();
+    };
+    const RenderResult plain = render(lit(false), 256);
+    const RenderResult hidden = render(lit(true), 1024);
+    expectSameMean(hidden.rendering, plain.rendering, 4);
+    EXPECT_LT(glm::length(meanOf(hidden.rendering).standardError / meanOf(hidden.rendering).mean), 0.02);
+}
+
 TEST_F(SolidBoundaries, ThatCoincideAreOneInterface) {
     const double reflected[] = {1.0 - passing(1.0, 1.5), 1.0 - passing(1.5, 1.33), 1.0 - passing(1.33, 1.0)};
     double sum = 0.0;
