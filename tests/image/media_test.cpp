@@ -13,7 +13,7 @@ namespace {
 
 class Media : public MediaTest {};
 
-// ../shared/field/01: a segment ends on what stands in the absorber.
+// A segment ends on what stands in the absorber.
 TEST_F(Media, AttenuateWhateverEndsTheSegment) {
     const Shape absorber = box({-2, -2, -1}, {2, 2, 1});
     const glm::vec3 color(0.9f, 0.8f, 0.7f);
@@ -40,7 +40,7 @@ TEST_F(Media, AttenuateWhateverEndsTheSegment) {
     expectEverywhere(empty, glm::dvec3(color) * over(2.0));
 }
 
-// ../shared/field/01: light, wall and camera inside, 2 m + 3 m of medium.
+// Light, wall and camera are inside: 2 m and 3 m of medium.
 TEST_F(Media, AttenuateShadowRays) {
     Scene scene = SceneBuilder()
                       .add(box({-9, -9, -9}, {9, 9, 9}), glassOf(1.0f, kMetreColor))
@@ -61,8 +61,6 @@ TEST_F(Media, AttenuateShadowRays) {
         EXPECT_NEAR(mean.mean[c] / expected[c], 1.0, 1e-4) << "channel " << c;
 }
 
-// ../shared/field/10: distances are those between surfaces.
-// ../shared/field/19.
 TEST_F(Media, OfNestedSolidsAreThoseOfTheInnermost) {
     const Scene scene =
         SceneBuilder()
@@ -93,9 +91,6 @@ TEST_F(Media, WhereSolidsOverlapAreThoseOfTheSmaller) {
     }
 }
 
-// ../shared/field/19, same_ior: rays that bend nowhere inside.
-// A boundary that the medium inside hides is passed without a vertex: no bounce is counted.
-// A liquid that touches its glass: one interface, no film of air between them. A film would leave 0.888.
 // Camera in the water, an object in a glass in the water. Radiance grows by the square of the index.
 TEST_F(Media, LinkUpFromTheCameraToWhatItSees) {
     const glm::vec3 water(0.8f, 0.9f, 1.0f);

@@ -20,6 +20,7 @@ class SolidBoundaries : public MediaTest {
     }
 };
 
+// Distances are those between surfaces, wherever rays start.
 TEST_F(SolidBoundaries, OfThinPanesFarFromTheOriginHaveTwoSides) {
     const float far[][2] = {
         {1000.0f, 0.001f}, {1000.0f, 0.0039f}, {4096.0f, 0.004f}, {100.0f, 0.001f}, {10000.0f, 0.016f}};
@@ -46,6 +47,7 @@ TEST_F(SolidBoundaries, OfThinPanesFarFromTheOriginHaveTwoSides) {
     }
 }
 
+// Rays bend nowhere inside (KHR_materials_volume asks for both indices of a boundary).
 TEST_F(SolidBoundaries, OfABodyOfTheSameIndexWithinAnotherAreInvisible) {
     const auto scene = [](bool hasBall) {
         SceneBuilder builder;
@@ -68,6 +70,7 @@ TEST_F(SolidBoundaries, OfABodyOfTheSameIndexWithinAnotherAreInvisible) {
     EXPECT_LT(difference, 0.02);
 }
 
+// A boundary that the medium around it hides counts no bounce.
 TEST_F(SolidBoundaries, ThatAreHiddenAreNoVertices) {
     const Scene scene =
         SceneBuilder()
@@ -101,6 +104,7 @@ TEST_F(SolidBoundaries, ThatAreHiddenLeaveLightBehindThemWhole) {
     EXPECT_LT(glm::length(meanOf(hidden.rendering).standardError / meanOf(hidden.rendering).mean), 0.02);
 }
 
+// A liquid that touches its glass has no film of air between them, which would leave 0.888 of the light.
 TEST_F(SolidBoundaries, ThatCoincideAreOneInterface) {
     const double reflected[] = {1.0 - passing(1.0, 1.5), 1.0 - passing(1.5, 1.33), 1.0 - passing(1.33, 1.0)};
     double sum = 0.0;
