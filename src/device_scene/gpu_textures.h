@@ -26,7 +26,8 @@ struct PackedTextures {
 [[nodiscard]] std::vector<TriangleUvs> packUvs(const Scene& scene);
 // Vertex colours per triangle; white for meshes without.
 [[nodiscard]] std::vector<TriangleColors> packColors(const Scene& scene);
-// Planes of tangents: one, or one for each frame that the textures of some material go by (scene/tangents.h).
+// Planes of tangents: one, or one for each tangent space that the textures of some material go by
+// (scene/tangents.h).
 [[nodiscard]] uint32_t tangentPlanes(const Scene& scene);
 // Tangents per triangle, plane by plane; kNoTangents for meshes without. A mesh of fewer planes has its first
 // in those that it lacks. Throws Error as packTextures does.
