@@ -62,7 +62,8 @@ void followNormals(TriangleRecord triangle, vec3 wo, float longestEdge, inout In
     const float side = i.isFront ? 1.0 : -1.0;
     const vec3 lift = liftToSmoothSurface(i.p, i.b, mat3(triangle.v0, triangle.v1, triangle.v2),
                                           side * cornerNormals(triangle.surface), i.ng);
-    i.isLifted = dot(lift, i.ng) > max(kLeastLift * longestEdge, 8.0 * dot(abs(i.ng), i.pError));
+    i.isLifted = (triangle.material & kOwnPlaneBit) == 0u &&
+                 dot(lift, i.ng) > max(kLeastLift * longestEdge, 8.0 * dot(abs(i.ng), i.pError));
     i.lifted = i.p + lift;
     i.n = bentNormal(i.n, i.ng, wo);
     i.coatNormal = i.n;

@@ -8,7 +8,8 @@
 LAVALIGHT_SHARED_BEGIN
 
 // The material word of a triangle (shared/triangle.h): the index in the low bits, flags above. Bit 31 is kNeverCulledBit.
-SHARED_CONST uint kMaterialMask = 0x1fffffffu;
+SHARED_CONST uint kMaterialMask = 0x0fffffffu;
+SHARED_CONST uint kOwnPlaneBit = 0x10000000u; // rays start on the triangle, not on the smooth surface above it
 SHARED_CONST uint kAlphaBit = 0x20000000u; // rays may pass through: by alpha
 SHARED_CONST uint kFlatBit = 0x40000000u; // shaded with its geometric normal
 

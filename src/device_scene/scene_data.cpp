@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "accel/lift_clearance.h"
 #include "accel/triangle.h"
 #include "base/error.h"
 #include "base/os/memory.h"
@@ -40,6 +41,14 @@ std::vector<uint32_t> materialWords(const Scene& scene) {
                      materialWord(mesh, scene.materials[mesh.material], transparent[i]));
     }
     return words;
+}
+
+// Rays start on the triangles themselves where another surface is in the way of the smooth one.
+void keepCrowdedDown(const Scene& scene, std::span<const Triangle> triangles, std::span<uint32_t> words) {
+    const std::vector<bool> crowded = crowdedLifts(scene, triangles);
+    for (size_t i = 0; i < crowded.size(); ++i)
+        if (crowded[i])
+            words[i] |= kOwnPlaneBit;
 }
 
 std::vector<TriangleRecord> packTriangles(std::span<const Triangle> triangles, const Emitters& emitters,
@@ -185,7 +194,9 @@ SceneData packScene(const Scene& scene, const Lights& lights) {
     data.features = sceneFeatures(scene, lights);
     packSurfaceDetail(scene, data);
     data.accelerator = buildAccelerator(triangles);
-    data.triangles = packTriangles(triangles, lights.emitters, materialWords(scene));
+    std::vector<uint32_t> words = materialWords(scene);
+    keepCrowdedDown(scene, triangles, words);
+    data.triangles = packTriangles(triangles, lights.emitters, words);
     data.normals = packNormals(scene);
     data.materials = packMaterials(scene, data.textures.firstRecords);
     packTangentPlanes(scene, data.materials);

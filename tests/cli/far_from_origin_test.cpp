@@ -67,8 +67,6 @@ class FarFromOrigin : public testing::Test {
                                  const Words& more = {}) const {
         Words words{"render", scene,    "--env", "5,0,0", "--size",  "64x64",     "--spp",
                     "64",     "--seed", seed,    "-o",    "out.exr", "--sampler", "independent"};
-        words.insert(words.end(),
-                     {"--smooth-terminator", "off"}); // on, light leaks where the ball touches the floor
         words.insert(words.end(), more.begin(), more.end());
         const ProgramResult result = run(words);
         EXPECT_EQ(result.exitCode, 0) << result.err;

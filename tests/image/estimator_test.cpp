@@ -34,10 +34,10 @@ TEST_P(EstimatorTest, EverySettingHasTheMeanOfTheDefault) {
 
 INSTANTIATE_TEST_SUITE_P(
     Scenes, EstimatorTest,
-    testing::Values(Subject{"cornell-box", {1024, 0.5}}, Subject{"cornell-glass", {1024, 0.5}},
-                    Subject{"veach-mis", {1024, 0.1}}, Subject{"many-lights", {1024, 0.1}},
+    testing::Values(Subject{"cornell-box", {1024, 0.5}}, Subject{"cornell-glass", {512, 0.5}},
+                    Subject{"veach-mis", {1024, 0.1}}, Subject{"many-lights", {512, 0.1}},
                     Subject{"furnace", {1024, 0.5}}, Subject{"large-small-light", {1024, 0.1}},
-                    Subject{"glass-caustic", {1024, 0.1}}, Subject{"nested-glass", {512, 0.3, 12}}),
+                    Subject{"glass-caustic", {1024, 0.1}}, Subject{"nested-glass", {256, 0.3, 12}}),
     [](const auto& subject) {
         std::string name = subject.param.name;
         std::replace(name.begin(), name.end(), '-', '_');

@@ -149,6 +149,29 @@ TEST_F(SmoothTerminator, NoLightComesThroughAClosedBody) {
     EXPECT_GT(seenFrom(outside, around), 0.1);
 }
 
+// A pipe and a ball that pierce the walls of a box, and a ball that stands on its floor: their smooth
+// surfaces reach through the walls, and rays from there would see the sky.
+TEST_F(SmoothTerminator, NoLightEntersWhereACoarseMeshMeetsAWall) {
+    Material white = lambert(glm::vec3(0.8f));
+    white.doubleSided = true;
+    const Shape coarse = globe(12, 6, 0.5f);
+    const auto moved = [&](const glm::vec3& by) {
+        Shape shape = coarse;
+        for (glm::vec3& p : shape.positions)
+            p += by;
+        return shape;
+    };
+    SceneBuilder builder;
+    builder.add(insideOut(cube(kOrigin, 2.0f)), white).environment(glm::vec3(1000.0f));
+    for (const glm::vec3& place : {glm::vec3(2.0f, 0.3f, -1.0f), {0.0f, -1.5f, 0.0f}, {-1.0f, 2.1f, -1.2f}})
+        builder.addSmooth(moved(place), place, white);
+    for (const glm::vec3& target :
+         {glm::vec3(2.0f, 0.3f, -1.0f), {0.0f, -2.0f, 0.0f}, {-1.0f, 2.1f, -1.2f}}) {
+        const Scene scene = builder.camera(lookAt({-0.5f, 0.0f, 1.9f}, target, 0.6f)).build();
+        EXPECT_EQ(meanOf(renderScene(device(), scene, imageSettings(96, 96, 64)).rendering).mean.g, 0.0);
+    }
+}
+
 TEST_F(SmoothTerminator, FlatMeshesKeepTheirBits) {
     const Scene scene = SceneBuilder()
                             .add(globe(12, 6), lambert(glm::vec3(0.8f)))

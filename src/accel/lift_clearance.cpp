@@ -1,0 +1,275 @@
+#include "accel/lift_clearance.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <numeric>
+#include <optional>
+#include <ranges>
+
+#include "accel/embree_handles.h"
+#include "base/error.h"
+#include "base/parallel.h"
+
+namespace lavalight {
+namespace {
+
+using Corners = std::array<glm::vec3, 3>;
+
+// A lower share of the longest edge is no lift, as in shaders/scene/interaction.glsl.
+constexpr float kLeastLift = 5e-5f;
+
+// A corner's normal lifts nothing where its cosine with the triangle's normal is lower.
+constexpr float kLeastTrusted = 0.6f;
+
+Corners cornersOf(const Triangle& t) {
+    return {t.v0, t.v1, t.v2};
+}
+
+// A triangle of a smooth mesh with the normals at its corners.
+struct SmoothTriangle {
+    Corners corners;
+    Corners normals;
+};
+
+// Triangles by their ids, with the meshes that they come from.
+class SmoothTriangles {
+  public:
+    explicit SmoothTriangles(const Scene& scene) : scene_(scene) {
+        uint32_t first = 0;
+        for (const Mesh& mesh : scene.meshes) {
+            firsts_.push_back(first);
+            first += static_cast<uint32_t>(mesh.triangles.size());
+        }
+    }
+
+    [[nodiscard]] uint32_t meshOf(uint32_t triangle) const {
+        return static_cast<uint32_t>(std::ranges::upper_bound(firsts_, triangle) - firsts_.begin()) - 1;
+    }
+    [[nodiscard]] bool isSmooth(uint32_t triangle) const {
+        return !scene_.meshes[meshOf(triangle)].normals.empty();
+    }
+    [[nodiscard]] SmoothTriangle at(uint32_t triangle) const {
+        const uint32_t index = meshOf(triangle);
+        const Mesh& mesh = scene_.meshes[index];
+        const glm::uvec3 t = mesh.triangles[triangle - firsts_[index]];
+        return {{mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z]},
+                {mesh.normals[t.x], mesh.normals[t.y], mesh.normals[t.z]}};
+    }
+
+  private:
+    const Scene& scene_;
+    std::vector<uint32_t> firsts_;
+};
+
+// The prism that contains the smooth surface on one side of a triangle: points with dot(normals[i], x -
+// origin) <= ends[i]. It is smaller by rounding, so that what only touches it stays outside.
+struct LiftPrism {
+    glm::vec3 origin;
+    std::array<glm::vec3, 5> normals;
+    std::array<float, 5> ends;
+    float radius = 0.0f; // around the middle of the triangle
+};
+
+// rises[k][j]: how far above corner j the plane through corner k lies, along the normal there.
+using Rises = std::array<std::array<float, 3>, 3>;
+
+// A bound on a lift's component. The lift at barycentrics b is at most the sum over k and j of b_k b_j
+// rises[k][j], and its component that sum with each term times components[k]. Of the three products b_k b_j,
+// the sum is at most 1/3.
+float largestLift(const Rises& rises, const glm::vec3& components) {
+    float largest = 0.0f;
+    for (int k = 0; k < 3; ++k) {
+        const int j = (k + 1) % 3;
+        largest = std::max(largest, rises[k][j] * components[k] + rises[j][k] * components[j]);
+    }
+    return largest / 3.0f;
+}
+
+// normals: at the corners, on the side of ng.
+Rises risesOf(const Corners& c, const Corners& normals, const glm::vec3& ng) {
+    Rises rises{};
+    for (int k = 0; k < 3; ++k)
+        for (int j = 0; j < 3; ++j)
+            if (glm::dot(normals[k], ng) > kLeastTrusted)
+                rises[k][j] = std::max(0.0f, glm::dot(c[k] - c[j], normals[k]));
+    return rises;
+}
+
+float longestEdge(const Corners& c) {
+    return std::max({glm::distance(c[0], c[1]), glm::distance(c[1], c[2]), glm::distance(c[2], c[0])});
+}
+
+// side: 1 for the front, -1 for the back. None where the smooth surface is the triangle.
+std::optional<LiftPrism> liftPrism(const SmoothTriangle& t, float side) {
+    const Corners& c = t.corners;
+    const glm::vec3 ng = side * glm::normalize(glm::cross(c[1] - c[0], c[2] - c[0]));
+    const Corners normals{side * t.normals[0], side * t.normals[1], side * t.normals[2]};
+    const Rises rises = risesOf(c, normals, ng);
+    const auto liftAlong = [&](const glm::vec3& axis) {
+        glm::vec3 components;
+        for (int k = 0; k < 3; ++k)
+            components[k] = std::max(0.0f, glm::dot(normals[k], axis));
+        return largestLift(rises, components);
+    };
+    const float least = kLeastLift * longestEdge(c);
+    const float height = liftAlong(ng);
+    if (!(height > least)) // true for triangles without an area
+        return std::nullopt;
+    LiftPrism prism;
+    prism.origin = c[0];
+    prism.normals[0] = -ng;
+    prism.ends[0] = -least;
+    prism.normals[1] = ng;
+    prism.ends[1] = height;
+    for (int e = 0; e < 3; ++e) {
+        const glm::vec3 outwards = glm::normalize(glm::cross(c[(e + 1) % 3] - c[e], ng));
+        prism.normals[2 + e] = outwards;
+        prism.ends[2 + e] = glm::dot(outwards, c[e] - c[0]) + liftAlong(outwards) - least;
+    }
+    const glm::vec3 center = (c[0] + c[1] + c[2]) / 3.0f;
+    const float reach =
+        std::max({glm::distance(center, c[0]), glm::distance(center, c[1]), glm::distance(center, c[2])});
+    prism.radius = 1.0001f * (reach + largestLift(rises, glm::vec3(1.0f)));
+    return prism;
+}
+
+// Whether all of a triangle lies beyond one of the planes: true of most, for the neighbours lie below the
+// prism.
+bool isBeyondAPlane(const LiftPrism& prism, const Corners& corners) {
+    const glm::vec3 a = corners[0] - prism.origin;
+    const glm::vec3 b = corners[1] - prism.origin;
+    const glm::vec3 c = corners[2] - prism.origin;
+    for (size_t i = 0; i < prism.normals.size(); ++i) {
+        const glm::vec3& n = prism.normals[i];
+        if (std::min({glm::dot(n, a), glm::dot(n, b), glm::dot(n, c)}) > prism.ends[i])
+            return true;
+    }
+    return false;
+}
+
+// Whether a part of a triangle lies inside: what the prism's planes leave of it, one after the other.
+bool overlaps(const LiftPrism& prism, const Corners& corners) {
+    if (isBeyondAPlane(prism, corners))
+        return false;
+    std::array<glm::vec3, 8> polygon; // a plane adds one corner at most
+    size_t count = 3;
+    for (size_t i = 0; i < 3; ++i)
+        polygon[i] = corners[i] - prism.origin;
+    for (size_t plane = 0; plane < prism.normals.size() && count > 0; ++plane) {
+        std::array<glm::vec3, 8> kept;
+        size_t keptCount = 0;
+        for (size_t i = 0; i < count; ++i) {
+            const glm::vec3& a = polygon[i];
+            const glm::vec3& b = polygon[(i + 1) % count];
+            const float insideA = prism.ends[plane] - glm::dot(prism.normals[plane], a);
+            const float insideB = prism.ends[plane] - glm::dot(prism.normals[plane], b);
+            if (insideA >= 0.0f)
+                kept[keptCount++] = a;
+            if ((insideA >= 0.0f) != (insideB >= 0.0f))
+                kept[keptCount++] = glm::mix(a, b, insideA / (insideA - insideB));
+        }
+        polygon = kept;
+        count = keptCount;
+    }
+    return count > 0;
+}
+
+// Whether both belong to one smooth surface: they share a corner and the normal there.
+bool isContinued(const SmoothTriangle& a, const SmoothTriangle& b) {
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+            if (a.corners[i] == b.corners[j] && glm::dot(a.normals[i], b.normals[j]) > 0.999f)
+                return true;
+    return false;
+}
+
+EmbreeScene embreeScene(RTCDevice device, std::span<const Triangle> triangles) {
+    EmbreeScene scene(rtcNewScene(device));
+    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, triangles.data(), 0,
+                               sizeof(glm::vec3), 3 * triangles.size());
+    auto* indices = static_cast<uint32_t*>(rtcSetNewGeometryBuffer(
+        geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(uint32_t), triangles.size()));
+    std::iota(indices, indices + 3 * triangles.size(), 0u);
+    rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_LOW);
+    rtcSetSceneBuildQuality(scene.get(), RTC_BUILD_QUALITY_LOW);
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(scene.get(), geometry);
+    rtcReleaseGeometry(geometry);
+    rtcCommitScene(scene.get());
+    return scene;
+}
+
+// A look around one triangle for what overlaps the prism on either of its sides.
+struct Search {
+    const SmoothTriangles& smooth;
+    std::span<const Triangle> triangles;
+    uint32_t triangle;
+    SmoothTriangle corners;
+    std::array<std::optional<LiftPrism>, 2> prisms;
+    bool isCrowded = false;
+
+    [[nodiscard]] bool isFree() const { return !prisms[0] && !prisms[1]; }
+    [[nodiscard]] float radius() const {
+        return std::max(prisms[0] ? prisms[0]->radius : 0.0f, prisms[1] ? prisms[1]->radius : 0.0f);
+    }
+    [[nodiscard]] bool isOverlapped(const Corners& other) const {
+        return (prisms[0] && overlaps(*prisms[0], other)) || (prisms[1] && overlaps(*prisms[1], other));
+    }
+};
+
+bool meet(RTCPointQueryFunctionArguments* found) {
+    auto& search = *static_cast<Search*>(found->userPtr);
+    const uint32_t other = found->primID;
+    if (search.isCrowded || other == search.triangle ||
+        !search.isOverlapped(cornersOf(search.triangles[other])))
+        return false;
+    if (search.smooth.isSmooth(other) && isContinued(search.corners, search.smooth.at(other)))
+        return false;
+    search.isCrowded = true;
+    found->query->radius = 0.0f; // ends the search
+    return true;
+}
+
+bool isCrowded(RTCScene scene, Search search) {
+    const Corners& c = search.corners.corners;
+    const glm::vec3 center = (c[0] + c[1] + c[2]) / 3.0f;
+    RTCPointQuery query{center.x, center.y, center.z, 0.0f, search.radius()};
+    RTCPointQueryContext context;
+    rtcInitPointQueryContext(&context);
+    rtcPointQuery(scene, &query, &context, meet, &search);
+    return search.isCrowded;
+}
+
+} // namespace
+
+std::vector<bool> crowdedLifts(const Scene& scene, std::span<const Triangle> triangles) {
+    const SmoothTriangles smooth(scene);
+    const auto searchOf = [&](uint32_t id) {
+        const SmoothTriangle corners = smooth.at(id);
+        return Search{smooth, triangles, id, corners, {liftPrism(corners, 1.0f), liftPrism(corners, -1.0f)}};
+    };
+    const auto ids = std::views::iota(0u, static_cast<uint32_t>(triangles.size()));
+    if (std::ranges::none_of(ids, [&](uint32_t id) { return smooth.isSmooth(id) && !searchOf(id).isFree(); }))
+        return {};
+    const EmbreeDevice device(rtcNewDevice(nullptr));
+    if (!device)
+        throw Error("cannot look for surfaces near smooth ones: Embree does not start (out of memory?)");
+    const EmbreeScene tree = embreeScene(device.get(), triangles);
+    std::vector<uint8_t> crowded(triangles.size()); // bytes, which threads may write side by side
+    constexpr size_t kAtATime = 1024;
+    forEachInParallel((triangles.size() + kAtATime - 1) / kAtATime, [&](size_t part) {
+        const size_t end = std::min(triangles.size(), (part + 1) * kAtATime);
+        for (size_t i = part * kAtATime; i < end; ++i) {
+            const auto id = static_cast<uint32_t>(i);
+            if (!smooth.isSmooth(id))
+                continue;
+            const Search search = searchOf(id);
+            crowded[i] = !search.isFree() && isCrowded(tree.get(), search);
+        }
+    });
+    return {crowded.begin(), crowded.end()};
+}
+
+} // namespace lavalight
