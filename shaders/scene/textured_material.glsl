@@ -76,9 +76,11 @@ void applyBasisTexel(uint slot, vec4 texel, vec3 wo, inout MaterialRecord m, ino
 MaterialRecord texturedMaterial(MaterialRecord m, vec3 wo, SampleKey key, inout Interaction i) {
     if (sceneHas(kFeatureVertexColors))
         m.baseColor *= vertexColor(i.id, i.b).rgb;
+    if (!sceneHas(kFeatureTextures))
+        return m; // a loop of no rounds is not removed by every driver, and runs once with all lanes masked
     const vec2 u = kTextureFilter == kTextureFilterStochastic ? sample2D(key, kDimensionTexel) : vec2(0.0);
     uint index = m.firstTexture;
-    for (uint slots = sceneHas(kFeatureTextures) ? m.textureSlots : 0u; slots != 0u; slots &= slots - 1u) {
+    for (uint slots = m.textureSlots; slots != 0u; slots &= slots - 1u) {
         const uint slot = uint(findLSB(slots));
         const vec4 texel = textureAt(index, i.id, i.b, u);
         applyBaseTexel(slot, texel, m);

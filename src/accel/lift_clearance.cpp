@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <numeric>
 #include <optional>
 #include <ranges>
 
-#include "accel/embree_handles.h"
-#include "base/error.h"
+#include "accel/embree_triangles.h"
 #include "base/parallel.h"
 
 namespace lavalight {
@@ -184,23 +182,6 @@ bool isContinued(const SmoothTriangle& a, const SmoothTriangle& b) {
     return false;
 }
 
-EmbreeScene embreeScene(RTCDevice device, std::span<const Triangle> triangles) {
-    EmbreeScene scene(rtcNewScene(device));
-    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, triangles.data(), 0,
-                               sizeof(glm::vec3), 3 * triangles.size());
-    auto* indices = static_cast<uint32_t*>(rtcSetNewGeometryBuffer(
-        geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(uint32_t), triangles.size()));
-    std::iota(indices, indices + 3 * triangles.size(), 0u);
-    rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_LOW);
-    rtcSetSceneBuildQuality(scene.get(), RTC_BUILD_QUALITY_LOW);
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometry(scene.get(), geometry);
-    rtcReleaseGeometry(geometry);
-    rtcCommitScene(scene.get());
-    return scene;
-}
-
 // A look around one triangle for what overlaps the prism on either of its sides.
 struct Search {
     const SmoothTriangles& smooth;
@@ -253,10 +234,7 @@ std::vector<bool> crowdedLifts(const Scene& scene, std::span<const Triangle> tri
     const auto ids = std::views::iota(0u, static_cast<uint32_t>(triangles.size()));
     if (std::ranges::none_of(ids, [&](uint32_t id) { return smooth.isSmooth(id) && !searchOf(id).isFree(); }))
         return {};
-    const EmbreeDevice device(rtcNewDevice(nullptr));
-    if (!device)
-        throw Error("cannot look for surfaces near smooth ones: Embree does not start (out of memory?)");
-    const EmbreeScene tree = embreeScene(device.get(), triangles);
+    const EmbreeTriangles tree(triangles, RTC_BUILD_QUALITY_LOW);
     std::vector<uint8_t> crowded(triangles.size()); // bytes, which threads may write side by side
     constexpr size_t kAtATime = 1024;
     forEachInParallel((triangles.size() + kAtATime - 1) / kAtATime, [&](size_t part) {
@@ -266,7 +244,7 @@ std::vector<bool> crowdedLifts(const Scene& scene, std::span<const Triangle> tri
             if (!smooth.isSmooth(id))
                 continue;
             const Search search = searchOf(id);
-            crowded[i] = !search.isFree() && isCrowded(tree.get(), search);
+            crowded[i] = !search.isFree() && isCrowded(tree.scene(), search);
         }
     });
     return {crowded.begin(), crowded.end()};

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "accel/embree_handles.h"
+#include "accel/embree_triangles.h"
 #include "accel/triangle.h"
 
 namespace lavalight {
@@ -35,8 +35,7 @@ class EmbreeOracle {
     [[nodiscard]] std::vector<uint8_t> occluded(std::span<const OracleRay> rays) const;
 
   private:
-    EmbreeDevice device_;
-    EmbreeScene scene_;
+    EmbreeTriangles triangles_;
 };
 
 } // namespace lavalight

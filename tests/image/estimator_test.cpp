@@ -34,10 +34,10 @@ TEST_P(EstimatorTest, EverySettingHasTheMeanOfTheDefault) {
 
 INSTANTIATE_TEST_SUITE_P(
     Scenes, EstimatorTest,
-    testing::Values(Subject{"cornell-box", {1024, 0.5}}, Subject{"cornell-glass", {512, 0.5}},
+    testing::Values(Subject{"cornell-box", {512, 0.5}}, Subject{"cornell-glass", {512, 0.5}},
                     Subject{"veach-mis", {1024, 0.1}}, Subject{"many-lights", {512, 0.1}},
-                    Subject{"furnace", {1024, 0.5}}, Subject{"large-small-light", {1024, 0.1}},
-                    Subject{"glass-caustic", {1024, 0.1}}, Subject{"nested-glass", {256, 0.3, 12}}),
+                    Subject{"furnace", {256, 0.5}}, Subject{"large-small-light", {1024, 0.1}},
+                    Subject{"glass-caustic", {1024, 0.1}}, Subject{"nested-glass", {128, 0.3, 12}}),
     [](const auto& subject) {
         std::string name = subject.param.name;
         std::replace(name.begin(), name.end(), '-', '_');
@@ -128,14 +128,14 @@ TEST_P(MaterialsTest, EverySettingHasTheMeanOfTheDefault) {
     lamp.position = {2.0f, 3.0f, 2.0f};
     lamp.intensity = glm::vec3(4.0f);
     scene.punctualLights.push_back(lamp);
-    std::vector<Variant> variants = singleVariants();
+    std::vector<Variant> variants = variantsOfDirections();
     std::erase_if(variants, [](const Variant& v) { return !v.settings.nextEventEstimation; });
     expectOneMean(device(), scene, variants, GetParam().effort);
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, MaterialsTest,
-                         testing::Values(Subject{"glossy", {512, 0.5}}, Subject{"glass", {512, 0.5}},
-                                         Subject{"layered", {512, 0.5}}),
+                         testing::Values(Subject{"glossy", {256, 0.5}}, Subject{"glass", {256, 0.5}},
+                                         Subject{"layered", {256, 0.5}}),
                          [](const auto& subject) { return std::string(subject.param.name); });
 
 } // namespace

@@ -215,7 +215,7 @@ Scene coarseScene() {
 }
 
 TEST_F(SmoothTerminator, EverySettingHasTheMeanOfTheDefaultOnCoarseBodies) {
-    expectOneMean(device(), coarseScene(), singleVariants(), {768, 0.4});
+    expectOneMean(device(), coarseScene(), variantsOfDirections(), {384, 0.4});
 }
 
 // A lamp that lies in the planes of many triangles, seen from beside: rays that started elsewhere, or went by
@@ -229,7 +229,7 @@ TEST_F(SmoothTerminator, LightsAreFoundAlikeBySamplingAndByHittingWhereTheShadow
     std::vector<Variant> variants = singleVariants();
     std::erase_if(variants,
                   [](const Variant& v) { return v.settings.roulette != EstimatorSettings{}.roulette; });
-    expectOneMean(device(), scene, variants, {1024, 0.4});
+    expectOneMean(device(), scene, variants, {512, 0.4});
 }
 
 } // namespace

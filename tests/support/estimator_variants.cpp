@@ -100,6 +100,18 @@ std::vector<Variant> singleVariants() {
     return variants;
 }
 
+std::vector<Variant> variantsOfDirections() {
+    const EstimatorSettings usual = defaultVariant().settings;
+    std::vector<Variant> variants = singleVariants();
+    std::erase_if(variants, [&](const Variant& variant) {
+        const EstimatorSettings& s = variant.settings;
+        const bool isUsualRoulette = s.roulette == usual.roulette && s.misSurvival == usual.misSurvival;
+        return s.lightSelection != usual.lightSelection ||
+               (!isUsualRoulette && s.roulette != Roulette::off && s.misSurvival == usual.misSurvival);
+    });
+    return variants;
+}
+
 std::vector<Variant> allVariants() {
     std::vector<Variant> variants{withOtherSeed()};
     for (const std::vector<Change>& setting : changes()) {

@@ -1,4 +1,6 @@
-// Exact sums: floats added to wide fixed-point integers built from 32-bit words, lowest word first.
+// Exact sums: floats added to wide fixed-point integers built from 32-bit words, lowest word first. Functions here have no
+// branches: `accumulate` calls them six times in a loop, and SwiftShader's compiler took minutes and 6 GB for the paths
+// through twelve of them.
 #include "shared/film.h"
 
 struct Shifted {
@@ -15,20 +17,18 @@ Shifted toFixed(float x, int lowestExponent, uint words) {
     const uint mantissa = exponent == 0u ? bits & 0x7fffffu : (bits & 0x7fffffu) | 0x800000u;
     // x = mantissa * 2^(max(exponent, 1) - 150)
     const int shift = int(max(exponent, 1u)) - 150 - lowestExponent;
-    if (shift < 0) {
-        const uint down = uint(min(-shift, 31));
-        return Shifted((mantissa + (1u << (down - 1u))) >> down, 0u, 0u, false);
-    }
-    const uint word = uint(shift) / 32u;
-    const uint up = uint(shift) % 32u;
-    const uint high = up == 0u ? 0u : mantissa >> (32u - up);
+    const uint down = uint(clamp(-shift, 1, 31));
+    const uint rounded = (mantissa + (1u << (down - 1u))) >> down;
+    const uint word = uint(max(shift, 0)) / 32u;
+    const uint up = uint(max(shift, 0)) % 32u;
+    const uint high = mantissa >> 1u >> (31u - up);
     const bool overflows = word >= words || (word == words - 1u && high != 0u);
-    return Shifted(mantissa << up, high, word, overflows);
+    return Shifted(shift < 0 ? rounded : mantissa << up, high, word, overflows);
 }
 
 // The word of `s` at position `index`.
 uint wordOf(Shifted s, uint index) {
-    return index == s.word ? s.low : (index == s.word + 1u ? s.high : 0u);
+    return (index == s.word ? s.low : 0u) | (index == s.word + 1u ? s.high : 0u);
 }
 
 // a + b + carry; the carry out of it goes back into `carry`.
@@ -49,10 +49,9 @@ bool addExactly(inout uvec4 sum, float x, int lowestExponent) {
     sum.y = addWithCarry(sum.y, wordOf(s, 1u), carry);
     sum.z = addWithCarry(sum.z, wordOf(s, 2u), carry);
     sum.w = addWithCarry(sum.w, wordOf(s, 3u), carry);
-    if (carry == 0u && !s.overflows)
-        return true;
-    sum = uvec4(0xffffffffu);
-    return false;
+    const bool fits = carry == 0u && !s.overflows;
+    sum |= fits ? 0u : 0xffffffffu;
+    return fits;
 }
 
 // sum += x for a number of three words, as above.
@@ -62,10 +61,9 @@ bool addExactly(inout uvec3 sum, float x, int lowestExponent) {
     sum.x = addWithCarry(sum.x, wordOf(s, 0u), carry);
     sum.y = addWithCarry(sum.y, wordOf(s, 1u), carry);
     sum.z = addWithCarry(sum.z, wordOf(s, 2u), carry);
-    if (carry == 0u && !s.overflows)
-        return true;
-    sum = uvec3(0xffffffffu);
-    return false;
+    const bool fits = carry == 0u && !s.overflows;
+    sum |= fits ? 0u : 0xffffffffu;
+    return fits;
 }
 
 // sum += x for a number of four words in two's complement; false: |x| was limited to kMostSigned.

@@ -22,9 +22,6 @@ struct Extension {
 
 namespace extension_table {
 
-constexpr PropertyRule number(std::string_view name) {
-    return optional(name, Kind::number);
-}
 constexpr PropertyRule color(std::string_view name) {
     return numbers(name, 3);
 }

@@ -10,10 +10,6 @@ namespace {
 
 const std::string kMaterial = "materials[]";
 
-PropertyRule number(std::string_view name) {
-    return optional(name, Kind::number);
-}
-
 void addTexture(std::vector<ObjectRule>& rules, const std::string& path) {
     rules.push_back({path,
                      {index("index", "textures", Need::required), optional("texCoord", Kind::small),

@@ -22,8 +22,8 @@ void addFileRules(std::vector<ObjectRule>& rules) {
                       numbers("weights", kAnyLength)}});
     rules.push_back({"cameras[]", {required("type", Kind::text), optional("name", Kind::text)}});
     rules.push_back({"cameras[].perspective",
-                     {required("yfov", Kind::number), required("znear", Kind::number),
-                      optional("zfar", Kind::number), optional("aspectRatio", Kind::number)}});
+                     {required("yfov", Kind::number), required("znear", Kind::number), number("zfar"),
+                      number("aspectRatio")}});
     rules.push_back({"cameras[].orthographic",
                      {required("xmag", Kind::number), required("ymag", Kind::number),
                       required("zfar", Kind::number), required("znear", Kind::number)}});
@@ -33,12 +33,11 @@ void addFileRules(std::vector<ObjectRule>& rules) {
 void addLightRules(std::vector<ObjectRule>& rules) {
     rules.push_back(
         {"extensions.KHR_lights_punctual", {{"lights", Kind::object, Need::optional, kAnyLength}}});
-    rules.push_back(
-        {"extensions.KHR_lights_punctual.lights[]",
-         {required("type", Kind::text), optional("name", Kind::text), optional("intensity", Kind::number),
-          optional("range", Kind::number), numbers("color", 3)}});
+    rules.push_back({"extensions.KHR_lights_punctual.lights[]",
+                     {required("type", Kind::text), optional("name", Kind::text), number("intensity"),
+                      number("range"), numbers("color", 3)}});
     rules.push_back({"extensions.KHR_lights_punctual.lights[].spot",
-                     {optional("innerConeAngle", Kind::number), optional("outerConeAngle", Kind::number)}});
+                     {number("innerConeAngle"), number("outerConeAngle")}});
     rules.push_back({"nodes[].extensions.KHR_lights_punctual",
                      {index("light", "extensions.KHR_lights_punctual.lights", Need::required)}});
 }

@@ -40,6 +40,9 @@ struct PropertyRule {
 [[nodiscard]] constexpr PropertyRule optional(std::string_view name, Kind kind) {
     return {name, kind};
 }
+[[nodiscard]] constexpr PropertyRule number(std::string_view name) {
+    return optional(name, Kind::number);
+}
 [[nodiscard]] constexpr PropertyRule numbers(std::string_view name, size_t length) {
     return {name, Kind::number, Need::optional, length};
 }
