@@ -50,7 +50,7 @@ struct Answer { // as in bsdf_test.comp
 constexpr size_t kSamples = 100000;
 constexpr size_t kRings = 32; // from the zenith to the nadir
 constexpr size_t kSectors = 32;
-constexpr size_t kPointsPerSide = 12; // points of a bin for its integral, per side
+constexpr size_t kPointsPerSide = 16; // points of a bin for its integral, per side
 constexpr size_t kPoints = kPointsPerSide * kPointsPerSide;
 constexpr double kPi = std::numbers::pi;
 constexpr double kWoAzimuth = 1.0;
