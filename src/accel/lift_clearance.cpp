@@ -121,7 +121,7 @@ std::optional<LiftPrism> liftPrism(const SmoothTriangle& t, float side) {
     prism.normals[1] = ng;
     prism.ends[1] = height;
     for (int e = 0; e < 3; ++e) {
-        const glm::vec3 outwards = glm::normalize(glm::cross(c[(e + 1) % 3] - c[e], ng));
+        const glm::vec3 outwards = side * glm::normalize(glm::cross(c[(e + 1) % 3] - c[e], ng));
         prism.normals[2 + e] = outwards;
         prism.ends[2 + e] = glm::dot(outwards, c[e] - c[0]) + liftAlong(outwards) - least;
     }

@@ -108,6 +108,20 @@ TEST(CrowdedLifts, OneTriangleIsMarkedWhereAPinPiercesIt) {
     EXPECT_EQ(countOf(crowded), 1u);
 }
 
+// From inside a hollow sphere its smooth surface lies behind the mesh.
+TEST(CrowdedLifts, BehindAHollowSurfaceTheSameAreMarked) {
+    const Shape floor = rectangle({0, -0.99f, 0}, {0, 0, 3}, {3, 0, 0});
+    const Scene full = smoothSphere().add(floor, lambert(glm::vec3(1.0f))).build();
+    Scene hollow = SceneBuilder()
+                       .addSmooth(insideOut(sphere()), kOrigin, lambert(glm::vec3(1.0f)))
+                       .add(floor, lambert(glm::vec3(1.0f)))
+                       .build();
+    for (glm::vec3& n : hollow.meshes[0].normals)
+        n = -n;
+    EXPECT_EQ(crowdedOf(hollow), crowdedOf(full));
+    EXPECT_GT(countOf(crowdedOf(hollow)), 0u);
+}
+
 // Around the sphere, touching nothing: the flat faces of the shell lie above all lifts, or amid them.
 // it.
 TEST(CrowdedLifts, AShellAboveTheSmoothSurfaceIsNotInItsWay) {
