@@ -224,5 +224,20 @@ TEST_F(GlassIndexTest, DensitiesAndValuesAddUpOverAllDirections) {
                 }
 }
 
+TEST_F(GlassIndexTest, NothingPassesAMirrorOfIndexZero) {
+    std::vector<Question> questions;
+    for (const Case& c : allCases({0.0f}))
+        for (const glm::vec3& wi :
+             {glm::vec3(0.0f, 0.0f, -1.0f), {0.6f, 0.0f, -0.8f}, {0.0f, -0.8f, -0.6f}}) {
+            questions.push_back(c.question());
+            questions.back().samples = 0;
+            questions.back().wi = wi;
+        }
+    for (const Answer& answer : ask(questions)) {
+        EXPECT_EQ(answer.f, 0.0f);
+        EXPECT_EQ(answer.pdf, 0.0f);
+    }
+}
+
 } // namespace
 } // namespace lavalight::test

@@ -65,18 +65,36 @@ TEST_F(MatchedIndex, ChannelThatDispersionBringsToIndexOnePassesWhole) {
     EXPECT_GT(mean.mean.b, 0.4);
 }
 
-// Index 0 stands for an infinite one: all is reflected, and nothing enters that a black base colour would
-// swallow.
+// Index 0 stands for an infinite one: all is reflected, and nothing enters that a black base colour, or what
+// fills a body, would swallow.
 TEST_F(MatchedIndex, IndexZeroIsAMirrorWithOrWithoutDispersion) {
     for (const float dispersion : {0.0f, 1.0f})
-        for (const bool isSolid : {false, true}) {
-            Material mirror = glass(0.0f, 0.0f, isSolid);
-            mirror.baseColor = glm::vec3(0.0f);
-            mirror.dispersion = dispersion;
-            SCOPED_TRACE(dispersion);
-            expectEveryPixel(renderScene(device(), inTheFurnace(mirror), imageSettings(16, 16, 8)),
-                             glm::dvec3(1.0));
-        }
+        for (const bool isSolid : {false, true})
+            for (const bool attenuates : {false, true}) {
+                Material mirror = glass(0.0f, 0.0f, isSolid);
+                mirror.baseColor = glm::vec3(0.0f);
+                mirror.dispersion = dispersion;
+                mirror.attenuationColor = glm::vec3(attenuates ? 0.5f : 1.0f);
+                mirror.attenuationDistance = 1.0f;
+                SCOPED_TRACE(testing::Message() << dispersion << (isSolid ? ", solid" : ", thin"));
+                expectEveryPixel(renderScene(device(), inTheFurnace(mirror), imageSettings(16, 16, 8)),
+                                 glm::dvec3(1.0));
+            }
+}
+
+TEST_F(MatchedIndex, IndexZeroIsAMirrorFromBehindAsWell) {
+    for (const bool isSolid : {false, true}) {
+        Material mirror = glass(0.0f, 0.0f, isSolid);
+        mirror.doubleSided = true;
+        const Scene scene = SceneBuilder()
+                                .add(rectangle({0, 0, 0}, {0, 0, 9}, {9, 0, 0}), mirror)
+                                .add(rectangle({0, 5, 0}, {99, 0, 0}, {0, 0, 99}), light(glm::vec3(3.0f)))
+                                .add(rectangle({0, -5, 0}, {0, 0, 99}, {99, 0, 0}), light(glm::vec3(1.0f)))
+                                .camera(lookAtOrthographic({1.0f, -2.0f, 1.5f}, glm::vec3(0.0f), 0.7f))
+                                .build();
+        SCOPED_TRACE(isSolid ? "solid" : "thin");
+        expectEveryPixel(renderScene(device(), scene, imageSettings(16, 16, 8)), glm::dvec3(1.0));
+    }
 }
 
 } // namespace

@@ -172,6 +172,121 @@ TEST_F(SmoothTerminator, NoLightEntersWhereACoarseMeshMeetsAWall) {
     }
 }
 
+// One triangle with the normals of the unit sphere, 0.8 m from the sphere's centre: its middle is lifted by
+// 0.36 * 0.8 m (Hanika 2021, chapter 4), and a lamp is a metre above that.
+TEST_F(SmoothTerminator, LampsAreAsFarAwayAsTheSmoothSurfaceIs) {
+    Shape triangle{{}, {{0, 1, 2}}};
+    for (int i = 0; i < 3; ++i) {
+        const float phi = 2.0f * kPi * static_cast<float>(i) / 3.0f;
+        triangle.positions.emplace_back(0.6f * std::cos(phi), 0.6f * std::sin(phi), 0.8f);
+    }
+    Scene scene = SceneBuilder()
+                      .addSmooth(triangle, kOrigin, lambert(glm::vec3(1.0f)))
+                      .camera(lookAtOrthographic({0, 0, 5}, kOrigin, 1e-4f))
+                      .build();
+    PunctualLight lamp;
+    lamp.position = {0, 0, 0.8f + 0.36f * 0.8f + 1.0f};
+    lamp.intensity = glm::vec3(kPi);
+    scene.punctualLights.push_back(lamp);
+    const auto seen = [&](bool smoothTerminator) {
+        RenderSettings settings = imageSettings(8, 8, 4);
+        settings.estimator.smoothTerminator = smoothTerminator;
+        return meanOf(renderScene(device(), scene, settings).rendering).mean.g;
+    };
+    EXPECT_NEAR(seen(true), 1.0, 1e-3);
+    EXPECT_NEAR(seen(false), 1.0 / (1.288 * 1.288), 1e-3);
+}
+
+// Light that passes starts on the mesh: from above it, the triangle itself would be in its way.
+TEST_F(SmoothTerminator, LightPassesCoarseSmoothPanesAndLeaves) {
+    Material pane = lambert(glm::vec3(1.0f));
+    pane.transmission = 1.0f;
+    pane.ior = 1.0f;
+    Material leaf = lambert(glm::vec3(1.0f));
+    leaf.diffuseTransmission = 1.0f;
+    leaf.doubleSided = true;
+    const auto seen = [&](const Material& material) {
+        const Scene scene = SceneBuilder()
+                                .addSmooth(globe(12, 6), kOrigin, material)
+                                .environment(glm::vec3(1.0f))
+                                .camera(lookAtOrthographic({1.0f, 2.0f, 3.0f}, kOrigin, 1.1f))
+                                .build();
+        RenderSettings settings = imageSettings(32, 32, 16);
+        settings.estimator.roulette = Roulette::off;
+        return renderScene(device(), scene, settings);
+    };
+    expectEveryPixel(seen(pane), glm::dvec3(1.0));
+    EXPECT_GT(meanOf(seen(leaf).rendering).mean.g, 0.9);
+}
+
+// Rays from the boundary of a solid start on the mesh, and so do those of metal, which lets nothing in.
+TEST_F(SmoothTerminator, MetalThatBoundsASolidIsLitWhereTheMeshIs) {
+    Material metal = lambert(glm::vec3(1.0f));
+    metal.metallic = 1.0f;
+    metal.roughness = 0.7f;
+    metal.transmission = 1.0f;
+    metal.isSolid = true;
+    metal.attenuationColor = glm::vec3(0.5f);
+    metal.attenuationDistance = 1.0f;
+    Scene scene = SceneBuilder()
+                      .addSmooth(globe(12, 6), kOrigin, metal)
+                      .camera(lookAtOrthographic({1.0f, 2.0f, 3.0f}, kOrigin, 0.3f))
+                      .build();
+    ASSERT_EQ(scene.solids.size(), 1u);
+    PunctualLight lamp;
+    lamp.position = {0.4f, 0.8f, 1.2f};
+    lamp.intensity = glm::vec3(1.0f);
+    scene.punctualLights.push_back(lamp);
+    RenderSettings settings = imageSettings(16, 16, 4);
+    const RenderResult on = renderScene(device(), scene, settings);
+    settings.estimator.smoothTerminator = false;
+    EXPECT_EQ(on.filmWords, renderScene(device(), scene, settings).filmWords);
+    EXPECT_GT(meanOf(on.rendering).mean.g, 0.1);
+}
+
+// The normals of a smooth ball out of sight are none of a slanting plane without.
+TEST_F(SmoothTerminator, FlatMeshesBesideSmoothOnesKeepTheirPlanes) {
+    for (const glm::vec3& n : {glm::vec3(0.6f, 0.0f, 0.8f), {-0.6f, 0.8f, 0.0f}, {0.0f, -0.8f, -0.6f}}) {
+        const glm::vec3 u = glm::normalize(glm::cross(n, glm::vec3(0.3f, 0.5f, 0.7f)));
+        Scene scene = SceneBuilder()
+                          .add(rectangle(kOrigin, u, glm::cross(n, u)), lambert(glm::vec3(1.0f)))
+                          .addSmooth(globe(12, 6), kOrigin, lambert(glm::vec3(0.0f)))
+                          .camera(lookAtOrthographic(5.0f * n, kOrigin, 0.5f))
+                          .build();
+        for (glm::vec3& p : scene.meshes[1].positions)
+            p -= 30.0f * n;
+        PunctualLight sun;
+        sun.kind = PunctualKind::directional;
+        sun.direction = -n;
+        sun.intensity = glm::vec3(kPi);
+        scene.punctualLights.push_back(sun);
+        expectEveryPixel(renderScene(device(), scene, imageSettings(8, 8, 4)), glm::dvec3(1.0));
+    }
+}
+
+// Packed normals round, which lifts nothing.
+TEST_F(SmoothTerminator, PlanesWithNormalsKeepTheirBits) {
+    for (const glm::vec3& direction : {glm::vec3(0.31f, 0.52f, 0.79f),
+                                       {-0.9f, 0.2f, 0.3f},
+                                       {0.17f, -0.71f, 0.41f},
+                                       {0.51f, 0.47f, -0.61f}}) {
+        const glm::vec3 n = glm::normalize(direction);
+        const glm::vec3 u = glm::normalize(glm::cross(n, glm::vec3(0.3f, -0.5f, 0.7f)));
+        const glm::vec3 v = glm::cross(n, u);
+        Scene scene = SceneBuilder()
+                          .add(rectangle(kOrigin, u, v), lambert(glm::vec3(0.8f)))
+                          .add(rectangle(0.3f * n + 2.0f * u, n, v), light(glm::vec3(5.0f)))
+                          .camera(lookAtOrthographic(5.0f * n - 2.0f * u, kOrigin, 0.6f))
+                          .build();
+        scene.meshes[0].normals.assign(4, n);
+        RenderSettings settings = imageSettings(16, 16, 8);
+        const RenderResult on = renderScene(device(), scene, settings);
+        settings.estimator.smoothTerminator = false;
+        EXPECT_EQ(on.filmWords, renderScene(device(), scene, settings).filmWords);
+        EXPECT_GT(meanOf(on.rendering).mean.g, 0.0);
+    }
+}
+
 TEST_F(SmoothTerminator, FlatMeshesKeepTheirBits) {
     const Scene scene = SceneBuilder()
                             .add(globe(12, 6), lambert(glm::vec3(0.8f)))

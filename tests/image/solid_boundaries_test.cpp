@@ -136,22 +136,27 @@ TEST_F(SolidBoundaries, ThatCoincideAreOneInterface) {
 }
 
 TEST_F(SolidBoundaries, TheListAtTheCameraFollowsWhereEachRayStarts) {
-    // Half of the view, and half of a lens, is in the box; a near plane is in it as a whole.
-    const Shape half = box({-5, -5, -1}, {0, 5, 1});
+    // Half of the view, and half of a lens, is in the box; a near plane is in it as a whole. The floor shows
+    // what each ray takes itself to be in.
+    const Shape floor = squareAt(-3.0f, 9.0f);
     Camera wide = down(0.5f);
     wide.position = {0, 0, 0.5f};
     wide.halfHeight = 1.0f;
-    const Scene scene = SceneBuilder()
-                            .add(half, glassOf(1.0f, kMetreColor))
-                            .environment(glm::vec3(1.0f))
-                            .camera(wide)
-                            .build();
-    for (const Schedule schedule : {Schedule::fused, Schedule::wavefront}) {
-        const Rendering image = render(scene, 4, 16, schedule).rendering;
-        for (uint32_t x = 0; x < 16; ++x)
-            for (uint32_t y = 0; y < 16; ++y)
-                EXPECT_NEAR(image.radiance().pixels[y * 16 + x].g, x < 8 ? over(1.5).g : 1.0, 1e-5)
-                    << x << ", " << y;
+    for (const bool isLeft : {true, false}) {
+        const Shape half = isLeft ? box({-5, -5, -1}, {0, 5, 1}) : box({0, -5, -1}, {5, 5, 1});
+        const Scene scene = SceneBuilder()
+                                .add(half, glassOf(1.0f, kMetreColor))
+                                .add(floor, unlit(glm::vec3(1.0f)))
+                                .camera(wide)
+                                .build();
+        for (const Schedule schedule : {Schedule::fused, Schedule::wavefront}) {
+            const Rendering image = render(scene, 4, 16, schedule).rendering;
+            for (uint32_t x = 0; x < 16; ++x)
+                for (uint32_t y = 0; y < 16; ++y)
+                    EXPECT_NEAR(image.radiance().pixels[y * 16 + x].g, (x < 8) == isLeft ? over(1.5).g : 1.0,
+                                1e-5)
+                        << (isLeft ? "left: " : "right: ") << x << ", " << y;
+        }
     }
     Camera cut = down(3.0f);
     cut.znear = 2.5f;
@@ -166,7 +171,7 @@ TEST_F(SolidBoundaries, TheListAtTheCameraFollowsWhereEachRayStarts) {
     lens.focusDistance = 10.0f;
     const Scene blurred = SceneBuilder()
                               .add(box({-5, -5, -1}, {0, 5, 1}), glassOf(1.0f, {0.0f, 0.0f, 0.0f}))
-                              .environment(glm::vec3(1.0f))
+                              .add(floor, unlit(glm::vec3(1.0f)))
                               .camera(lens)
                               .build();
     expectMean(render(blurred, 256), glm::dvec3(0.5), 0.01); // half of the lens is in ink

@@ -95,6 +95,8 @@ TEST(SceneFeatures, NormalMapsWantTangentsAndSolidsOfColourAttenuation) {
     EXPECT_EQ(featuresOf(body) & kFeatureAttenuation, 0u);
     body.attenuationDistance = 1.0f;
     EXPECT_EQ(featuresOf(body) & kFeatureAttenuation, kFeatureAttenuation);
+    body.isSolid = false;
+    EXPECT_EQ(featuresOf(body) & kFeatureAttenuation, 0u) << "a thin wall";
     Material unlit = lambert();
     unlit.isUnlit = true;
     EXPECT_EQ(featuresOf(unlit), kFeatureUnlit);
@@ -167,11 +169,33 @@ TEST(SceneFeatures, ListsOfSolidsAreKeptWhereTheyMatter) {
     EXPECT_FALSE(wants(glass, {box(0, 1), box(1.01f, 2)}));
     EXPECT_TRUE(wants(glass, {box(0, 1), box(1, 2)})) << "they touch";
     EXPECT_TRUE(wants(glass, {box(0, 1), box(3, 4), box(0.5f, 2)}));
+    EXPECT_TRUE(wants(glass, {box(0, 10), {{1, 20, 0}, {2, 21, 1}}, {{3, 9, 0}, {4, 11, 1}}}))
+        << "another lies between them along x";
     EXPECT_TRUE(wants(glass, {box(1000, 1000.001f)})) << "thin for its place";
+    for (const glm::vec3& thin : {glm::vec3(0.001f, 1, 1), {1, 0.001f, 1}, {1, 1, 0.001f}})
+        EXPECT_TRUE(wants(glass, {{glm::vec3(1000.0f), 1000.0f + thin}})) << "along one axis";
+    EXPECT_FALSE(wants(glass, {box(1000, 1001)}));
     glass.attenuationColor = glm::vec3(0.5f);
     glass.attenuationDistance = 1.0f;
     EXPECT_TRUE(wants(glass, {box(0, 1)}));
     EXPECT_FALSE(wants(glass, {}));
+}
+
+// Closed bodies that attenuate are solids, open ones are not.
+TEST(SceneFeatures, SolidsAreNamedAndAttenuateByTheirLists) {
+    Scene scene;
+    Material body = lambert();
+    body.isSolid = true;
+    body.transmission = 1.0f;
+    body.attenuationColor = glm::vec3(0.5f);
+    body.attenuationDistance = 1.0f;
+    scene.materials = {body};
+    scene.meshes.emplace_back();
+    const SceneFeatures both = kFeatureSolids | kFeatureAttenuation;
+    EXPECT_EQ(featuresOf(scene) & both, kFeatureAttenuation);
+    scene.solids.push_back({0, {glm::vec3(0.0f), glm::vec3(1.0f)}});
+    scene.meshes.front().solid = 1;
+    EXPECT_EQ(featuresOf(scene) & both, kFeatureSolids);
 }
 
 TEST(SceneFeatures, LightsAndNormalsAreNamed) {

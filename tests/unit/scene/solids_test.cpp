@@ -1,10 +1,12 @@
 // Which meshes bound a body.
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "scene/solids.h"
+#include "scene/starting_solids.h"
 #include "support/scene_builder.h"
 
 namespace lavalight::test {
@@ -79,6 +81,8 @@ TEST(FindSolids, AHollowBelongsToItsBody) {
     EXPECT_EQ(scene.solids.size(), 1u);
     EXPECT_EQ(solidsAround(scene, {0.7, 0, 0}).numbers, std::vector<uint32_t>{1});
     EXPECT_EQ(solidsAround(scene, {0.2, 0, 0}).numbers, std::vector<uint32_t>());
+    EXPECT_TRUE(solidsAround(scene, {0.5, 0.4, 0}).isOnSurface);
+    EXPECT_FALSE(solidsAround(scene, {0.5, 0.8, 0}).isOnSurface) << "in the plane of a face, beside it";
 }
 
 TEST(FindSolids, MeshesOfOneMediumThatAreClosedTogetherAreOneBody) {
@@ -121,6 +125,35 @@ TEST(SolidsAround, CountsHowOftenASurfaceGoesAroundAPoint) {
     EXPECT_TRUE(solidsAround(scene, {0, 0, 7}).numbers.empty());
     EXPECT_FALSE(solidsAround(scene, {9, 0, 0}).isOnSurface);
     EXPECT_TRUE(solidsAround(scene, {12, 0.1, 0.2}).isOnSurface);
+    EXPECT_TRUE(solidsAround(scene, {12 - 1e-5, 0.1, 0.2}).isOnSurface) << "as near as rounding";
+    EXPECT_FALSE(solidsAround(scene, {12 - 1e-3, 0.1, 0.2}).isOnSurface);
+}
+
+// What is around the starts of an orthographic view of 2 m, whose middle is at x.
+StartingSolids startingAt(const Scene& scene, float x) {
+    Camera camera = lookAtOrthographic({x, 0, 0}, {x, 0, -1}, 1.0f);
+    return startingSolids(scene, camera, viewExtent(camera, 1.0f, 1.0f), 0.0f);
+}
+
+TEST(StartingSolids, VaryWhereABoundaryCrossesThePlaceThatRaysStartIn) {
+    const Scene scene = sceneOf({cube({0, 0, 0}, 3.0f)});
+    EXPECT_FALSE(startingAt(scene, 1.9f).vary);
+    EXPECT_EQ(startingAt(scene, 1.9f).around, std::vector<uint32_t>{1});
+    EXPECT_TRUE(startingAt(scene, 2.1f).vary);
+    EXPECT_TRUE(startingAt(scene, 3.9f).vary);
+    EXPECT_FALSE(startingAt(scene, 4.1f).vary);
+    EXPECT_TRUE(startingAt(scene, 4.1f).around.empty());
+    const Camera pinhole = lookAt({3, 0, 0}, {3, 0, -1}, 1.0f);
+    EXPECT_FALSE(startingSolids(scene, pinhole, viewExtent(pinhole, 1.0f, 1.0f), 0.0f).vary);
+}
+
+TEST(StartingSolids, AreThoseOfAPlaceThatIsOnNoSurface) {
+    const Scene scene = sceneOf({cube({0, 0, 0}, 3.0f)});
+    const StartingSolids starting = startingAt(scene, 3.0f);
+    EXPECT_FALSE(solidsAround(scene, starting.reference).isOnSurface);
+    EXPECT_EQ(starting.around, solidsAround(scene, starting.reference).numbers);
+    EXPECT_LT(std::abs(starting.reference.x - 3.0f), 1.0f);
+    EXPECT_LT(std::abs(starting.reference.y), 1.0f);
 }
 
 } // namespace
