@@ -67,12 +67,18 @@ Device::Device(const DeviceConfig& config)
 
     const float priority = 1.0f;
     const vk::DeviceQueueCreateInfo queueInfo({}, queueFamily_, 1, &priority);
-    device_ = checked("open", description_.name,
-                      [&] { return vk::raii::Device(physical_, vk::DeviceCreateInfo({}, queueInfo)); });
+    device_ = checked("open", description_.name, [&] {
+        const auto lock = lockLoader();
+        return vk::raii::Device(physical_, vk::DeviceCreateInfo({}, queueInfo));
+    });
     queue_ = vk::raii::Queue(device_, queueFamily_, 0);
 }
 
-Device::~Device() = default;
+Device::~Device() {
+    const auto lock = lockLoader();
+    queue_ = nullptr;
+    device_ = nullptr;
+}
 
 MemoryReservation Device::reserve(uint64_t bytes, uint32_t heap, std::string_view object) {
     if (allocatedBytes_ + bytes > limits_.memoryBytes)

@@ -65,13 +65,21 @@ vk::raii::Instance makeInstance(const vk::raii::Context& context, bool validate,
         info.setPNext(&features);
     }
     info.setPEnabledExtensionNames(extensions);
-    const auto create = [&] { return vk::raii::Instance(context, info); };
+    const auto create = [&] {
+        const auto lock = lockLoader();
+        return vk::raii::Instance(context, info);
+    };
     return checked(
         "create",
         "the Vulkan instance (is a driver installed? Debian's mesa-vulkan-drivers has one for CPUs)", create);
 }
 
 } // namespace
+
+std::unique_lock<std::mutex> lockLoader() {
+    static std::mutex mutex;
+    return std::unique_lock(mutex);
+}
 
 Instance::Instance(bool validate, std::span<const char* const> extensions)
     : context_(makeContext()), messages_(std::make_unique<MessageLog>()),
@@ -91,7 +99,11 @@ Instance::Instance(bool validate, std::span<const char* const> extensions)
     messenger_ = vk::raii::DebugUtilsMessengerEXT(instance_, vk::DebugUtilsMessengerCreateInfoEXT(create));
 }
 
-Instance::~Instance() = default;
+Instance::~Instance() {
+    const auto lock = lockLoader();
+    messenger_ = nullptr;
+    instance_ = nullptr;
+}
 
 std::vector<vk::raii::PhysicalDevice> Instance::physicalDevices() const {
     return checked("list", "the Vulkan devices", [&] {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <mutex>
 #include <span>
 #include <string>
 #include <vector>
@@ -9,6 +10,11 @@
 #include <vulkan/vulkan_raii.hpp>
 
 namespace lavalight::gpu {
+
+// Held while an instance or a device is made or destroyed. Vulkan promises that threads may do so at the same
+// time, but the loader's list of devices has no lock of its own (KhronosGroup/Vulkan-Loader#2018): on Debian
+// 13 two sessions that opened their devices together crashed.
+[[nodiscard]] std::unique_lock<std::mutex> lockLoader();
 
 class Instance {
   public:

@@ -116,8 +116,10 @@ void Presenter::openDevice() {
     const char* extension = VK_KHR_SWAPCHAIN_EXTENSION_NAME;
     vk::DeviceCreateInfo info({}, queue);
     info.setPEnabledExtensionNames(extension);
-    device_ = gpu::checked("open", physical_.getProperties().deviceName.data(),
-                           [&] { return vk::raii::Device(physical_, info); });
+    device_ = gpu::checked("open", physical_.getProperties().deviceName.data(), [&] {
+        const auto lock = gpu::lockLoader();
+        return vk::raii::Device(physical_, info);
+    });
     queue_ = vk::raii::Queue(device_, queueFamily_, 0);
 }
 

@@ -157,7 +157,7 @@ TEST_F(Info, WithoutASceneTheUsageIsWrong) {
     const ProgramResult result = run({"info"});
     EXPECT_EQ(result.exitCode, 2);
     EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
-    EXPECT_NE(result.err.find("scene is required"), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find("input is required"), std::string::npos) << result.err;
 }
 
 TEST_F(Info, RealScenesAreValidJson) {

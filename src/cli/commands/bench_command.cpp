@@ -204,7 +204,7 @@ BenchCommand::BenchCommand(CLI::App& app) : Command(app, "bench", "Measure speed
     parser().require_subcommand(1);
     CLI::App& rays =
         addSubcommand("rays", "Camera, bounce and shadow rays per second, beside Embree on the same rays");
-    rays.add_option("scene", scene_, "A .gltf or .glb file, or a built-in name such as dense-300000")
+    rays.add_option("input", scene_, "A .gltf or .glb file, or a built-in name such as dense-300000")
         ->type_name("SCENE")
         ->required();
     rays.add_option("--rays", rays_, "Camera rays; the others start where these hit")

@@ -283,7 +283,7 @@ nlohmann::ordered_json sceneJson(const Scene& scene) {
 InfoCommand::InfoCommand(CLI::App& app)
     : Command(app, "info", "What was understood of a scene and what was not"), options_(parser()) {
     parser()
-        .add_option("scene", scene_,
+        .add_option("input", scene_,
                     fmt::format("A .gltf or .glb file, or built in: {}", listText(builtinNames())))
         ->type_name("SCENE")
         ->required();

@@ -39,7 +39,7 @@ RenderCommand::RenderCommand(CLI::App& app)
       frames_(parser()), shaders_(parser()), tone_(parser()), checkpoints_(parser()) {
     shaders_.declareWatch(parser());
     parser()
-        .add_option("scene", scene_,
+        .add_option("input", scene_,
                     "Built-in scene (" + fmt::format("{}", fmt::join(builtinNames(), ", ")) +
                         ") or .gltf or .glb file")
         ->type_name("SCENE");

@@ -48,7 +48,7 @@ Json vertexJson(const TracedVertex& vertex, uint32_t number, const Scene& scene)
 TraceCommand::TraceCommand(CLI::App& app)
     : Command(app, "trace", "Show one path of a render, vertex by vertex, as JSON"), options_(parser()),
       sceneOptions_(parser()), shaders_(parser()) {
-    parser().add_option("scene", scene_, "Built-in scene, or .gltf or .glb file")->type_name("SCENE");
+    parser().add_option("input", scene_, "Built-in scene, or .gltf or .glb file")->type_name("SCENE");
     parser()
         .add_option("--pixel", pixel_, "Column and row of the image, from its top left")
         ->required()

@@ -23,7 +23,7 @@ ViewCommand::ViewCommand(CLI::App& app)
     shaders_.declareWatch(parser());
     parser().add_flag("--no-watch", isNotWatching_,
                       "Do not watch shaders, which is done where --shaders or ./shaders is there");
-    parser().add_option("scene", scene_, "Built-in scene, or .gltf or .glb file")->type_name("SCENE");
+    parser().add_option("input", scene_, "Built-in scene, or .gltf or .glb file")->type_name("SCENE");
 }
 
 // Without --spp, until the window is closed.
