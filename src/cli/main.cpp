@@ -12,6 +12,7 @@
 
 #include "base/error.h"
 #include "base/log.h"
+#include "base/os/standard_streams.h"
 #include "cli/command_line.h"
 
 namespace lavalight {
@@ -68,5 +69,6 @@ int run(int argc, char** argv) {
 } // namespace lavalight
 
 int main(int argc, char** argv) {
+    lavalight::holdStandardStreams();
     return lavalight::run(argc, argv);
 }
