@@ -56,7 +56,8 @@ RenderSettings imageSettings(uint32_t width, uint32_t height, uint32_t samples) 
 
 RenderResult renderScene(gpu::Device& device, const Scene& scene, const RenderSettings& settings) {
     checkSettings(settings);
-    static std::optional<EstimatorKernels> kept; // younger than the device, and gone before it
+    // Never destroyed, as the device is not: at exit the validation layer may be unloaded before them.
+    static auto& kept = *new std::optional<EstimatorKernels>;
     std::optional<EstimatorKernels> earlier = std::exchange(kept, std::nullopt);
     const Camera& camera = scene.cameras.front();
     Renderer renderer = earlier ? Renderer(device, scene, camera, settings, std::move(*earlier))
