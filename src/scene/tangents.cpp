@@ -98,11 +98,11 @@ std::vector<uint32_t> weld(const Mesh& mesh, const std::vector<glm::vec2>& uvs) 
 
 // Gives corners of mirrored triangles vertices of their own where plain triangles use them too. Returns
 // which vertices are mirrored.
-std::vector<bool> splitMirrored(Mesh& mesh, const std::vector<UvBasis>& spaces) {
+std::vector<bool> splitMirrored(Mesh& mesh, const std::vector<UvBasis>& bases) {
     const size_t count = mesh.positions.size();
     std::vector<bool> isPlain(count, false);
-    for (size_t i = 0; i < spaces.size(); ++i) {
-        for (int corner = 0; corner < 3 && !spaces[i].isMirrored; ++corner)
+    for (size_t i = 0; i < bases.size(); ++i) {
+        for (int corner = 0; corner < 3 && !bases[i].isMirrored; ++corner)
             isPlain[mesh.triangles[i][corner]] = true;
     }
     std::vector<uint32_t> order(count);
@@ -110,8 +110,8 @@ std::vector<bool> splitMirrored(Mesh& mesh, const std::vector<UvBasis>& spaces) 
         order[i] = static_cast<uint32_t>(i);
     std::vector<bool> isMirrored(count, false);
     std::unordered_map<uint32_t, uint32_t> copies;
-    for (size_t i = 0; i < spaces.size(); ++i) {
-        for (int corner = 0; corner < 3 && spaces[i].isMirrored; ++corner) {
+    for (size_t i = 0; i < bases.size(); ++i) {
+        for (int corner = 0; corner < 3 && bases[i].isMirrored; ++corner) {
             uint32_t& vertex = mesh.triangles[i][corner];
             if (isPlain[vertex]) {
                 const auto [copy, isNew] = copies.try_emplace(vertex, static_cast<uint32_t>(order.size()));
@@ -132,15 +132,15 @@ std::vector<bool> splitMirrored(Mesh& mesh, const std::vector<UvBasis>& spaces) 
 using Sums = std::array<glm::vec3, 2>;
 
 // The triangles' tangents, laid along the surface and weighted by angle, added up at each welded vertex.
-std::vector<Sums> sumTangents(const Mesh& mesh, const std::vector<UvBasis>& spaces,
+std::vector<Sums> sumTangents(const Mesh& mesh, const std::vector<UvBasis>& bases,
                               const std::vector<uint32_t>& welded) {
     std::vector<Sums> sums(mesh.positions.size(), Sums{glm::vec3(0.0f), glm::vec3(0.0f)});
-    for (size_t i = 0; i < spaces.size(); ++i) {
+    for (size_t i = 0; i < bases.size(); ++i) {
         const glm::uvec3& triangle = mesh.triangles[i];
         for (int corner = 0; corner < 3; ++corner) {
             const uint32_t vertex = triangle[corner];
-            const glm::vec3 along = alongSurface(spaces[i].tangent, mesh.normals[vertex]);
-            sums[welded[vertex]][spaces[i].isMirrored] += along * cornerAngle(mesh, triangle, corner);
+            const glm::vec3 along = alongSurface(bases[i].tangent, mesh.normals[vertex]);
+            sums[welded[vertex]][bases[i].isMirrored] += along * cornerAngle(mesh, triangle, corner);
         }
     }
     return sums;
@@ -160,14 +160,14 @@ std::vector<glm::vec2> coordinatesOf(const Mesh& mesh, const TangentSpace& space
 // Tangents of a mesh with normals; may give it further vertices.
 std::vector<glm::vec4> tangentsAlong(Mesh& mesh, const TangentSpace& space) {
     std::vector<glm::vec2> uvs = coordinatesOf(mesh, space);
-    std::vector<UvBasis> spaces;
-    spaces.reserve(mesh.triangles.size());
+    std::vector<UvBasis> bases;
+    bases.reserve(mesh.triangles.size());
     for (const glm::uvec3& triangle : mesh.triangles)
-        spaces.push_back(uvBasis(mesh, triangle, uvs));
-    const std::vector<bool> isMirrored = splitMirrored(mesh, spaces);
+        bases.push_back(uvBasis(mesh, triangle, uvs));
+    const std::vector<bool> isMirrored = splitMirrored(mesh, bases);
     uvs = coordinatesOf(mesh, space);
     const std::vector<uint32_t> welded = weld(mesh, uvs);
-    const std::vector<Sums> sums = sumTangents(mesh, spaces, welded);
+    const std::vector<Sums> sums = sumTangents(mesh, bases, welded);
     std::vector<glm::vec4> tangents(mesh.positions.size());
     for (size_t i = 0; i < tangents.size(); ++i) {
         const glm::vec3& normal = mesh.normals[i];

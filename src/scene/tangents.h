@@ -27,7 +27,7 @@ struct TangentSpaces {
     uint32_t anisotropy = 0;          // of the anisotropy texture's
 };
 
-// Frames of the normal texture, the clearcoat's, and, where the material is anisotropic, the anisotropy
+// Spaces of the normal texture, the clearcoat's, and, where the material is anisotropic, the anisotropy
 // texture's or, if it is alone, uv set 0.
 [[nodiscard]] TangentSpaces tangentSpaces(const Material& material);
 

@@ -66,15 +66,6 @@ TEST_F(Signals, AClosedStdoutFailsTheRunAndNotTheImage) {
     EXPECT_EQ(readFile(folder_ / "err.txt"), "lavalight: error: cannot write the results to stdout\n");
 }
 
-// Files that are opened must not get the numbers of streams: messages would end up in them.
-TEST_F(Signals, ClosedStreamsLeaveTheImageAlone) {
-    ASSERT_EQ(inShell("render --size 24x16 --spp 1 -o a.exr 2>err.txt"), 0);
-    ASSERT_EQ(inShell("render --size 24x16 --spp 1 -o b.exr <&- >&- 2>&-"), 1);
-    EXPECT_EQ(readExr(folder_ / "b.exr").radiance().pixels, readExr(folder_ / "a.exr").radiance().pixels);
-    EXPECT_EQ(inShell("render no-such-scene -o c.exr 2>&-"), 1);
-    EXPECT_EQ(folder_.count(), 3) << "a.exr, b.exr and err.txt";
-}
-
 TEST_F(Signals, AFolderThatGoesWhileItRendersIsTold) {
     fs::create_directory(folder_ / "sub");
     RunningProgram program(longRender("sub/a.exr"), folder_.path());

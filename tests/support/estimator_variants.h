@@ -26,9 +26,9 @@ struct Variant {
 // next-event estimation, the noisiest by far, effort 4.
 [[nodiscard]] std::vector<Variant> singleVariants();
 
-// Those that draw or weigh directions otherwise, which is where materials and meshes matter: none that only
-// picks lights otherwise, and of the roulettes but that which is off and that which MIS heeds. Most of a
-// variant's time goes into compiling its kernels.
+// The single variants that draw or weigh directions otherwise, which is where materials and meshes matter:
+// none that only picks lights otherwise, and of the roulettes but that which is off and that which MIS heeds.
+// Most of a variant's time goes into compiling its kernels.
 [[nodiscard]] std::vector<Variant> variantsOfDirections();
 
 // Every combination of those values that checkSettings() permits; seed 1.

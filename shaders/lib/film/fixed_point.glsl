@@ -1,4 +1,4 @@
-// Exact sums: floats added to wide fixed-point integers built from 32-bit words, lowest word first. Functions here have no
+// Exact sums: floats added to wide fixed-point integers built from 32-bit words, lowest word first. Those that add have no
 // branches: `accumulate` calls them six times in a loop, and SwiftShader's compiler took minutes and 6 GB for the paths
 // through twelve of them.
 #include "shared/film.h"

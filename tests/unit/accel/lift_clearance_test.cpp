@@ -278,14 +278,14 @@ TEST(CrowdedLifts, ASmoothShellAmidTheLiftsIsInTheWay) {
     EXPECT_EQ(std::count(crowded.begin() + 320, crowded.end(), true), 0);
 }
 
-// Ones that coincide are one surface (a liquid that touches its glass).
+// Meshes that coincide are one surface (a liquid that touches its glass).
 TEST(CrowdedLifts, ACoincidentMeshIsNotInTheWay) {
     const Scene scene =
         smoothSphere().addSmooth(insideOut(sphere()), kOrigin, lambert(glm::vec3(1.0f))).build();
     EXPECT_EQ(countOf(crowdedOf(scene)), 0u);
 }
 
-// Moved 1 km, the pin is still found, and nothing else.
+// Both stand kilometres away from the origin.
 TEST(CrowdedLifts, FarFromTheOriginTheSameAreMarked) {
     const glm::vec3 far(1000.0f, -2000.0f, 500.0f);
     const Shape floor = rectangle({0, -0.99f, 0}, {0, 0, 3}, {3, 0, 0});

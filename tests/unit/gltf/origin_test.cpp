@@ -235,7 +235,7 @@ TEST(GltfOrigin, WhatLiesTooFarApartIsWarnedOfWithItsFigures) {
     EXPECT_EQ(warningsWith(scene, "mesh 0 \"part\""), 1);
 }
 
-// The same two with both in one primitive, whose box says nothing of what is small in it.
+// One primitive holds both, and its box says nothing of what is small in it.
 TEST(GltfOrigin, OnePrimitiveMayLieTooFarApartInItself) {
     std::vector<glm::vec3> corners = kCoarseCorners;
     for (const glm::vec3& corner : kCoarseCorners)

@@ -104,7 +104,7 @@ TEST(Tangents, MaterialsWantThemForNormalTexturesAndAnisotropy) {
     EXPECT_EQ(tangentSpaces(material).anisotropy, 1u);
 }
 
-TEST(Tangents, FramesAreThoseOfTheTexturesCoordinatesAndEachIsThereOnce) {
+TEST(Tangents, SpacesAreThoseOfTheTexturesCoordinatesAndEachIsThereOnce) {
     Material material;
     material.anisotropy = 0.5f;
     // A quarter turn, moved.
@@ -142,7 +142,7 @@ Mesh sheet(const TangentSpace& space, bool isFlat) {
 }
 
 // KHR_texture_transform: what a transform does to coordinates, it does to their directions.
-TEST(Tangents, FrameOfATransformIsThatOfTheCoordinatesThatItMakes) {
+TEST(Tangents, SpaceOfATransformIsThatOfTheCoordinatesThatItMakes) {
     const float c = std::cos(0.7f);
     const float s = std::sin(0.7f);
     const std::vector<TangentSpace> spaces = {
@@ -171,7 +171,7 @@ TEST(Tangents, FrameOfATransformIsThatOfTheCoordinatesThatItMakes) {
 }
 
 // The second space mirrors one of two triangles, so that it needs vertices that the first does not.
-TEST(Tangents, FramesOfSeveralUvSetsShareTheirVertices) {
+TEST(Tangents, SpacesOfSeveralUvSetsShareTheirVertices) {
     Mesh mesh = square(false);
     mesh.uvs.push_back(square(true).uvs[0]);
     generateTangents(mesh, std::vector{TangentSpace{}, TangentSpace{.uvSet = 1}, TangentSpace{.uvSet = 7}});
