@@ -53,9 +53,6 @@ vec3 shadingNormal(TriangleRecord triangle, vec3 b, vec3 ng) {
     return length2 > 1e-12 ? n * inversesqrt(length2) : ng; // opposite corner normals cancel: keep the plane's
 }
 
-// Lower than this share of the longest edge a lift may be the rounding of packed normals.
-const float kLeastLift = 5e-5;
-
 // Lets the surface follow the normals that the mesh gives it: rays start where the smooth surface lies, and the normal is bent
 // as those of normal maps are. On the inner side of a curve the smooth surface lies below, and rays start on the mesh.
 void followNormals(TriangleRecord triangle, vec3 wo, float longestEdge, inout Interaction i) {

@@ -13,6 +13,11 @@ SHARED_CONST uint kOwnPlaneBit = 0x10000000u; // rays start on the triangle, not
 SHARED_CONST uint kAlphaBit = 0x20000000u; // rays may pass through: by alpha
 SHARED_CONST uint kFlatBit = 0x40000000u; // shaded with its geometric normal
 
+// The smooth surface that a mesh stands for (lib/math/smooth_surface.glsl): a corner's normal lifts nothing where its cosine with
+// the triangle's is lower; lower than this share of the longest edge, a lift may be the rounding of packed normals.
+SHARED_CONST float kLeastTrustedCosine = 0.6f;
+SHARED_CONST float kLeastLift = 5e-5f;
+
 // One texel a triangle: shading normals at its corners, octahedral, two 16-bit signed normalised numbers each.
 struct TriangleNormals {
     uint n0;

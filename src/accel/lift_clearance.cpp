@@ -8,17 +8,12 @@
 
 #include "accel/embree_triangles.h"
 #include "base/parallel.h"
+#include "shared/scene.h"
 
 namespace lavalight {
 namespace {
 
 using Corners = std::array<glm::vec3, 3>;
-
-// A lower share of the longest edge is no lift, as in shaders/scene/interaction.glsl.
-constexpr float kLeastLift = 5e-5f;
-
-// A corner's normal lifts nothing where its cosine with the triangle's normal is lower.
-constexpr float kLeastTrusted = 0.6f;
 
 Corners cornersOf(const Triangle& t) {
     return {t.v0, t.v1, t.v2};
@@ -89,7 +84,7 @@ Rises risesOf(const Corners& c, const Corners& normals, const glm::vec3& ng) {
     Rises rises{};
     for (int k = 0; k < 3; ++k)
         for (int j = 0; j < 3; ++j)
-            if (glm::dot(normals[k], ng) > kLeastTrusted)
+            if (glm::dot(normals[k], ng) > kLeastTrustedCosine)
                 rises[k][j] = std::max(0.0f, glm::dot(c[k] - c[j], normals[k]));
     return rises;
 }

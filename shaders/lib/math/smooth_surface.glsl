@@ -5,9 +5,11 @@
 #ifndef LAVALIGHT_SMOOTH_SURFACE_GLSL
 #define LAVALIGHT_SMOOTH_SURFACE_GLSL
 
+#include "shared/scene.h"
+
 // From p up to the plane through a corner, along the corner's normal n; 0 where that plane lies below p.
 vec3 liftToCorner(vec3 p, vec3 corner, vec3 n, vec3 ng) {
-    const float trust = clamp((dot(n, ng) - 0.6) / 0.15, 0.0, 1.0);
+    const float trust = clamp((dot(n, ng) - kLeastTrustedCosine) / 0.15, 0.0, 1.0);
     return trust * max(0.0, dot(corner - p, n)) * n;
 }
 
