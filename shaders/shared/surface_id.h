@@ -11,7 +11,7 @@ LAVALIGHT_SHARED_BEGIN
 struct SurfaceId {
     uint primitive; // in the scene's numbering: meshes in order, triangles in order
 };
-SHARED_CONST SurfaceId kNoSurface = SurfaceId(0xffffffffu); // nothing was hit, or a ray starts in free space
+SHARED_CONST SurfaceId kNoSurface = {0xffffffffu}; // nothing was hit, or a ray starts in free space
 
 SHARED_FUNCTION uint instanceOf(SurfaceId) {
     return 0u;

@@ -4,7 +4,6 @@
 #include <array>
 #include <cstdint>
 #include <optional>
-#include <ranges>
 
 #include "accel/embree_triangles.h"
 #include "base/parallel.h"
@@ -226,8 +225,10 @@ std::vector<bool> crowdedLifts(const Scene& scene, std::span<const Triangle> tri
         const SmoothTriangle corners = smooth.at(id);
         return Search{smooth, triangles, id, corners, {liftPrism(corners, 1.0f), liftPrism(corners, -1.0f)}};
     };
-    const auto ids = std::views::iota(0u, static_cast<uint32_t>(triangles.size()));
-    if (std::ranges::none_of(ids, [&](uint32_t id) { return smooth.isSmooth(id) && !searchOf(id).isFree(); }))
+    bool isAllFree = true;
+    for (uint32_t id = 0; id < triangles.size() && isAllFree; ++id)
+        isAllFree = !smooth.isSmooth(id) || searchOf(id).isFree();
+    if (isAllFree)
         return {};
     const EmbreeTriangles tree(triangles, RTC_BUILD_QUALITY_LOW);
     std::vector<uint8_t> crowded(triangles.size()); // bytes, which threads may write side by side

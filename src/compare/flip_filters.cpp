@@ -142,7 +142,7 @@ Plane filterColumns(const Plane& plane, const Filter& filter) {
     for (int y = 0; y < height; ++y) {
         float* to = result.row(static_cast<uint32_t>(y));
         for (int k = -radius; k <= radius; ++k) {
-            const float weight = filter.weights[static_cast<size_t>(k + radius)];
+            const float weight = filter.weights[static_cast<size_t>(k) + static_cast<size_t>(radius)];
             const float* from = plane.row(static_cast<uint32_t>(std::clamp(y + k, 0, height - 1)));
             for (uint32_t x = 0; x < plane.width; ++x)
                 to[x] += weight * from[x];

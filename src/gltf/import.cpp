@@ -83,6 +83,7 @@ std::optional<Viewpoint> shownFrom(const std::vector<PlacedCamera>& cameras, con
     if (cameras.empty())
         return std::nullopt;
     std::vector<std::string> names;
+    names.reserve(cameras.size());
     for (const PlacedCamera& placed : cameras)
         names.push_back(placed.camera.name);
     const size_t shown =

@@ -14,6 +14,7 @@ namespace {
 
 std::vector<DeviceDescription> describeAll(const std::vector<vk::raii::PhysicalDevice>& devices) {
     std::vector<DeviceDescription> descriptions;
+    descriptions.reserve(devices.size());
     for (const vk::raii::PhysicalDevice& device : devices)
         descriptions.push_back(describeDevice(device, static_cast<uint32_t>(descriptions.size())));
     return descriptions;

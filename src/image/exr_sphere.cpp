@@ -124,8 +124,9 @@ Image unfoldedCube(const Image& faces, uint64_t mostPixels) {
         for (uint32_t x = 0; x < map.width; ++x) {
             glm::vec3 sum(0.0f);
             for (uint32_t i = 0; i < kPoints * kPoints; ++i) {
+                const uint32_t row = i / kPoints;
                 const double u = (x + (i % kPoints + 0.5) / kPoints) / map.width;
-                const double v = (static_cast<double>(y) + (i / kPoints + 0.5) / kPoints) / map.height;
+                const double v = (static_cast<double>(y) + (row + 0.5) / kPoints) / map.height;
                 sum += cube.at(directionAt(u, v));
             }
             map.pixels[y * map.width + x] = sum / float{kPoints * kPoints};

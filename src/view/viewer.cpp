@@ -40,7 +40,7 @@ Window makeWindow(const ViewState& view) {
 std::string freeName(const std::string& source) {
     const std::string stem = std::filesystem::path(source).stem().string();
     for (int number = 1;; ++number) {
-        const std::string name = fmt::format("{}-{}", stem, number);
+        std::string name = fmt::format("{}-{}", stem, number);
         if (!std::filesystem::exists(name + ".exr") && !std::filesystem::exists(name + ".png"))
             return name;
     }

@@ -58,7 +58,7 @@ class CameraFrame : public testing::Test {
     [[nodiscard]] ProgramResult render(const std::string& file, const Words& more) const {
         Words arguments{"render", file, "--env", "0,0,0", "--spp", "4", "-o", "out.exr"};
         arguments.insert(arguments.end(), more.begin(), more.end());
-        const ProgramResult result = runLavalight(arguments, folder_.path());
+        ProgramResult result = runLavalight(arguments, folder_.path());
         EXPECT_EQ(result.exitCode, 0) << result.err;
         return result;
     }

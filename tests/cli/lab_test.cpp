@@ -194,7 +194,7 @@ TEST_F(LabCommandTest, SobolFallsFasterOnSmoothIntegrandsAndIndependentByTheRoot
         }
         EXPECT_NEAR(row.at("independentSlope").get<double>(), -0.5, 0.05) << name;
     }
-    const json box = tables.at(tables.size() - 2);
+    const json& box = tables.at(tables.size() - 2);
     ASSERT_EQ(box.at("name"), "cornell-box");
     const json last = box.at("rows").back();
     EXPECT_EQ(last.at("samples"), 256);

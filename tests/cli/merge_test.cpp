@@ -42,7 +42,8 @@ class Merge : public testing::Test {
         const ProgramResult result = run(parts);
         ASSERT_EQ(result.exitCode, 0) << result.err;
     }
-    void expectRefusal(std::vector<std::string> arguments, int exitCode, const std::string& part) const {
+    void expectRefusal(const std::vector<std::string>& arguments, int exitCode,
+                       const std::string& part) const {
         const long filesBefore = folder_.count();
         const ProgramResult result = run(arguments);
         EXPECT_EQ(result.exitCode, exitCode) << result.err;

@@ -1,4 +1,5 @@
 // Options of the estimator's settings are those of the table.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -19,11 +20,11 @@ TEST(SettingOptions, HelpNamesEverySettingItsValuesAndItsDefault) {
     const TemporaryFolder folder;
     const std::string help = runLavalight({"render", "--help"}, folder.path()).out;
     for (const SettingRow& row : settingRows()) {
-        const std::string head = "--" + std::string(row.name) + " " + valueNames(row);
+        const std::string head = fmt::format("--{} {}", row.name, valueNames(row));
         const std::string chosen = textOf(row, EstimatorSettings{});
         // Versions of CLI11 differ in how they print the default.
-        EXPECT_TRUE(help.find(head + "=" + chosen) != std::string::npos ||
-                    help.find(head + " [" + chosen + "]") != std::string::npos)
+        EXPECT_TRUE(help.find(fmt::format("{}={}", head, chosen)) != std::string::npos ||
+                    help.find(fmt::format("{} [{}]", head, chosen)) != std::string::npos)
             << head << " with its default is not in\n"
             << help;
         const std::string_view start = row.help.substr(0, 20); // the rest may be on the next line

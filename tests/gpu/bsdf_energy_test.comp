@@ -3,7 +3,7 @@
 #include "lib/sampling/sampler.glsl"
 #include "scene/material.glsl"
 
-const uint kBatch = 1024u;
+const uint kBatch = 256u;
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 21, std430) writeonly buffer Out { vec4 means[]; }; // means of one batch each

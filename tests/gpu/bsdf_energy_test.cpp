@@ -23,11 +23,11 @@ struct Push { // as in the kernel
     uint32_t material;
 };
 
-constexpr size_t kBatches = 64;      // batches of 1024 samples
+constexpr size_t kBatches = 64;      // batches of 256 samples
 constexpr size_t kManyBatches = 128; // where few samples carry much of the mean
 // Standard errors. One in 31,000 means lies further above what it estimates by chance; here are some 3,000.
 constexpr double kSigmas = 4.0;
-// Error of a batch's sum in single precision: 1024 roundings of up to half a unit in the last place of 1024,
+// Error of a batch's sum in single precision: 256 roundings of up to half a unit in the last place of 256,
 // in the mean of 1.
 constexpr double kRounding = 3e-5;
 const std::vector<gpu::SpecialisationConstant> kMultipleScattering = {{CONSTANT_MULTIPLE_SCATTERING, 1}};

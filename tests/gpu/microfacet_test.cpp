@@ -80,14 +80,15 @@ class MicrofacetTest : public DeviceTest {
     }
     std::vector<double> expectedCounts(const glm::vec3& wo, const glm::vec2& alpha) {
         constexpr size_t points = kPointsPerSide * kPointsPerSide;
+        const auto middleOf = [](size_t bin, size_t point) {
+            return static_cast<double>(bin) + (static_cast<double>(point) + 0.5) / kPointsPerSide;
+        };
         std::vector<glm::vec4> normals;
         std::vector<double> weights;
         for (size_t bin = 0; bin < kRings * kSectors; ++bin)
             for (size_t i = 0; i < points; ++i) {
-                const double ring = static_cast<double>(bin / kSectors) +
-                                    (static_cast<double>(i % kPointsPerSide) + 0.5) / kPointsPerSide;
-                const double sector = static_cast<double>(bin % kSectors) +
-                                      (static_cast<double>(i / kPointsPerSide) + 0.5) / kPointsPerSide;
+                const double ring = middleOf(bin / kSectors, i % kPointsPerSide);
+                const double sector = middleOf(bin % kSectors, i / kPointsPerSide);
                 const Unstretched u = unstretched(ring / kRings, 2.0 * kPi * sector / kSectors, alpha);
                 normals.emplace_back(u.m, 0.0f);
                 weights.push_back(u.solidAngle * 2.0 * kPi / (kRings * kSectors * points));

@@ -30,8 +30,10 @@ class MisTest : public DeviceTest {
 // Densities from 1e-20 to 1e20, as far apart as a grazed pixel of a distant light and a nearly smooth lobe.
 std::vector<Question> questionsOf(uint32_t kind) {
     Random random(1);
+    constexpr size_t kCount = 20000;
     std::vector<Question> questions;
-    for (int i = 0; i < 20000; ++i)
+    questions.reserve(kCount);
+    for (size_t i = 0; i < kCount; ++i)
         questions.push_back({std::pow(10.0f, random.between(-20.0f, 20.0f)),
                              std::pow(10.0f, random.between(-20.0f, 20.0f)), kind});
     return questions;

@@ -27,6 +27,7 @@ TEST_F(OctahedralTest, VectorsComeBackWithinTheAnglePromised) {
     while (vectors.size() < 100000)
         vectors.push_back(random.direction());
     std::vector<uint32_t> words;
+    words.reserve(vectors.size());
     for (const glm::vec3& v : vectors)
         words.push_back(encodeOctahedral(v));
     KernelRunner runner(device(), test_kernels::find("octahedral_test"));

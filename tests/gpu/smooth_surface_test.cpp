@@ -67,8 +67,10 @@ class SmoothSurfaceTest : public DeviceTest {
 TEST_F(SmoothSurfaceTest, SphereIsLiftedJustBeyondItself) {
     Random random(1);
     for (const float reach : {0.05f, 0.2f, 0.5f, 0.7f}) {
+        constexpr size_t kCount = 1000;
         std::vector<Question> questions;
-        for (int i = 0; i < 1000; ++i)
+        questions.reserve(kCount);
+        for (size_t i = 0; i < kCount; ++i)
             questions.push_back(onSphere(randomTriangle(random, reach), randomPlace(random)));
         const std::vector<glm::vec4> lifts = lift(questions);
         for (size_t i = 0; i < lifts.size(); ++i) {

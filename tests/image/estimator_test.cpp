@@ -14,8 +14,7 @@
 namespace lavalight::test {
 namespace {
 
-// A scene, and how much is done to find a bias. BrokenEstimatorTest shows that 1024 samples notice 5 % of the
-// direct light.
+// A scene, and how much is done to find a bias. Each test prints which bias it would notice.
 struct Subject {
     const char* name;
     MeanEffort effort;
@@ -29,15 +28,18 @@ class EstimatorTest : public DeviceTest, public testing::WithParamInterface<Subj
 
 TEST_P(EstimatorTest, EverySettingHasTheMeanOfTheDefault) {
     const std::string scene = GetParam().name;
-    expectOneMean(device(), loadScene(scene), answerable(scene, singleVariants()), GetParam().effort);
+    // Scenes of glass have one lamp: other ways to pick a light change nothing there.
+    const bool isOfGlass = scene.find("glass") != std::string::npos;
+    const std::vector<Variant> variants = isOfGlass ? variantsOfDirections() : singleVariants();
+    expectOneMean(device(), loadScene(scene), answerable(scene, variants), GetParam().effort);
 }
 
 INSTANTIATE_TEST_SUITE_P(
     Scenes, EstimatorTest,
-    testing::Values(Subject{"cornell-box", {512, 0.5}}, Subject{"cornell-glass", {512, 0.5}},
-                    Subject{"veach-mis", {1024, 0.1}}, Subject{"many-lights", {512, 0.1}},
-                    Subject{"furnace", {256, 0.5}}, Subject{"large-small-light", {1024, 0.1}},
-                    Subject{"glass-caustic", {1024, 0.1}}, Subject{"nested-glass", {128, 0.3, 12}}),
+    testing::Values(Subject{"cornell-box", {256, 0.5}}, Subject{"cornell-glass", {512, 0.5}},
+                    Subject{"veach-mis", {512, 0.1}}, Subject{"many-lights", {256, 0.1}},
+                    Subject{"furnace", {128, 0.5}}, Subject{"large-small-light", {512, 0.1}},
+                    Subject{"glass-caustic", {1024, 0.1}}, Subject{"nested-glass", {64, 0.3, 12}}),
     [](const auto& subject) {
         std::string name = subject.param.name;
         std::replace(name.begin(), name.end(), '-', '_');

@@ -76,8 +76,8 @@ TEST_P(StoredReference, IsWhatWeRender) {
 // Light through the glass ball comes as rare bright samples: with as few as these the sums of smaller tiles
 // are far from normal (at 256 samples 12 % of 4 x 4 tiles are beyond 3.3).
 INSTANTIATE_TEST_SUITE_P(Mitsuba, StoredReference,
-                         testing::Values(Stored{"cornell-box", 256, 4}, Stored{"cornell-glass", 192, 16},
-                                         Stored{"veach-mis", 1024, 4}, Stored{"many-lights", 256, 4}),
+                         testing::Values(Stored{"cornell-box", 128, 4}, Stored{"cornell-glass", 192, 16},
+                                         Stored{"veach-mis", 1024, 4}, Stored{"many-lights", 128, 4}),
                          [](const auto& stored) {
                              std::string name = stored.param.scene;
                              std::replace(name.begin(), name.end(), '-', '_');

@@ -76,8 +76,8 @@ class TextureSpace : public DeviceTest {
         return scene;
     }
 
-    static void put(Scene& scene, TextureSlot slot, Texture texture) {
-        scene.materials[0].textures[static_cast<size_t>(slot)] = std::move(texture);
+    static void put(Scene& scene, TextureSlot slot, const Texture& texture) {
+        scene.materials[0].textures[static_cast<size_t>(slot)] = texture;
     }
 
     // What the import does for a mesh without tangents.

@@ -62,7 +62,7 @@ RenderResult renderScene(gpu::Device& device, const Scene& scene, const RenderSe
     const Camera& camera = scene.cameras.front();
     Renderer renderer = earlier ? Renderer(device, scene, camera, settings, std::move(*earlier))
                                 : Renderer(device, scene, camera, settings);
-    const RenderResult result = resultOf(renderer);
+    RenderResult result = resultOf(renderer);
     kept.emplace(renderer.releaseKernels());
     return result;
 }

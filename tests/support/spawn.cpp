@@ -20,6 +20,7 @@ void Spawn::workIn(const std::string& folder) {
 
 pid_t Spawn::start(std::vector<std::string> words) const {
     std::vector<char*> argv;
+    argv.reserve(words.size() + 1);
     for (std::string& word : words)
         argv.push_back(word.data());
     argv.push_back(nullptr);

@@ -144,7 +144,7 @@ std::filesystem::path fileOf(std::string_view uri, const GltfSource& source) {
         throw Error("an embedded scene cannot refer to files");
     std::error_code code;
     const auto folder = std::filesystem::canonical(source.folder->empty() ? "." : *source.folder, code);
-    const auto file = std::filesystem::weakly_canonical(folder / pathOf(uri, folder), code);
+    auto file = std::filesystem::weakly_canonical(folder / pathOf(uri, folder), code);
     if (code)
         throw Error(code.message());
     if (!isInside(file, folder) && !source.allowsExternal)

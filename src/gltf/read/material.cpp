@@ -10,8 +10,8 @@
 namespace lavalight {
 namespace {
 
-void setTexture(Material& material, TextureSlot slot, std::optional<Texture> texture) {
-    material.textures[static_cast<size_t>(slot)] = std::move(texture);
+void setTexture(Material& material, TextureSlot slot, const std::optional<Texture>& texture) {
+    material.textures[static_cast<size_t>(slot)] = texture;
 }
 
 void readBase(JsonView source, const std::vector<GltfTexture>& textures, Material& material,

@@ -77,6 +77,7 @@ int beginMain(int argc, char** argv, char** environment) {
 
 } // namespace
 
+// NOLINTNEXTLINE(bugprone-reserved-identifier): the loader calls it by this name
 extern "C" int __libc_start_main(Main main, int argc, char** argv, Main init, void (*fini)(),
                                  void (*unload)(), void* stackEnd) {
     mainOfProgram = main;

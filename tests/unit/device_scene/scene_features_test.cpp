@@ -156,7 +156,7 @@ TEST(SceneFeatures, ListsOfSolidsAreKeptWhereTheyMatter) {
     Material glass = lambert();
     glass.isSolid = true;
     glass.transmission = 1.0f;
-    const auto wants = [](Material material, std::initializer_list<Bounds> boxes) {
+    const auto wants = [](const Material& material, std::initializer_list<Bounds> boxes) {
         Scene scene;
         scene.materials = {material};
         for (const Bounds& box : boxes) {

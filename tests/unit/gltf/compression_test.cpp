@@ -166,7 +166,7 @@ std::string dracoSquare() {
     builder.Start(2);
     const int positions = builder.AddAttribute(draco::GeometryAttribute::POSITION, 3, draco::DT_FLOAT32);
     for (int face = 0; face < 2; ++face) {
-        const auto corner = [&](int i) { return &kSquare[kCorners[static_cast<size_t>(3 * face + i)]].x; };
+        const auto corner = [&](size_t i) { return &kSquare[kCorners[3 * static_cast<size_t>(face) + i]].x; };
         builder.SetAttributeValuesForFace(positions, draco::FaceIndex(static_cast<uint32_t>(face)), corner(0),
                                           corner(1), corner(2));
     }

@@ -53,7 +53,7 @@ std::string resultOf(const fs::path& path, const Read& read) {
         read(path);
         return "load";
     } catch (const Error& error) {
-        const std::string message = error.what();
+        std::string message = error.what();
         EXPECT_EQ(message.find('\n'), std::string::npos) << path << ": " << message;
         return message;
     }

@@ -103,6 +103,7 @@ TEST(GltfOrigin, TranslationsAndMatricesAndNestedNodesMoveTheOriginAlong) {
 TEST(GltfOrigin, VerticesFarFromTheirNodeKeepWhatTheFileHolds) {
     GltfBuilder builder;
     std::vector<glm::vec3> corners;
+    corners.reserve(kCoarseCorners.size());
     for (const glm::vec3& corner : kCoarseCorners)
         corners.push_back(corner + glm::vec3(kFar[0], kFar[1], kFar[2]));
     builder.addNode({{"mesh", addTriangle(builder, corners)}});
@@ -140,6 +141,7 @@ TEST(GltfOrigin, SkinsOfFarJointsAreAsFine) {
         const glm::vec3 far(kFar[0], kFar[1], kFar[2]);
         const std::vector<glm::vec3>& corners = isFarInFile ? kCoarseCorners : kCorners;
         std::vector<glm::vec3> stored;
+        stored.reserve(corners.size());
         for (const glm::vec3& corner : corners)
             stored.push_back(isFarInFile ? corner + far : corner);
         GltfBuilder builder;
@@ -170,6 +172,7 @@ TEST(GltfOrigin, SkinsOfFarJointsAreAsFine) {
 // A tenth of a metre is lost where coordinates are steps of 1 m, unless targets are added nearer to zero.
 TEST(GltfOrigin, MorphTargetsMoveVerticesByLessThanTheirStepsInTheFile) {
     std::vector<glm::vec3> corners;
+    corners.reserve(kCoarseCorners.size());
     for (const glm::vec3& corner : kCoarseCorners)
         corners.push_back(corner + glm::vec3(kFar[0], kFar[1], kFar[2]));
     GltfBuilder builder;

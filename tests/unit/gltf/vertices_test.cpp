@@ -118,8 +118,8 @@ TEST(GltfVertices, VerticesLeaveWithAllTheirAttributes) {
     const int positions = builder.addVec3({{nan, 0, 0}, {9, 9, 9}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
     const auto numbered = [&](const char* type, size_t components) {
         std::vector<float> values;
-        for (size_t i = 0; i < 5 * components; ++i)
-            values.push_back(static_cast<float>(i / components) / 4.0f);
+        for (size_t vertex = 0; vertex < 5; ++vertex)
+            values.insert(values.end(), components, static_cast<float>(vertex) / 4.0f);
         return builder.addAccessor({{"bufferView", builder.addView(values)},
                                     {"componentType", kFloat},
                                     {"count", 5},

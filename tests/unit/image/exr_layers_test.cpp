@@ -12,6 +12,7 @@ TEST(ExrLayers, AlphaOfALayerOfColourIsALayer) {
         channels.push_back({name});
     const std::vector<Layer> layers = layersIn(channels);
     std::vector<std::string> names;
+    names.reserve(layers.size());
     for (const Layer& layer : layers)
         names.push_back(layer.name);
     EXPECT_EQ(names, (std::vector<std::string>{"color", "A", "glow", "glow.A", "mist"}));

@@ -139,8 +139,10 @@ glm::vec3 directionOf(double u, double v) {
 TEST_F(ExrSphere, FacesOfACubeLieWhereOpenExrHasThem) {
     constexpr int kSide = 8;
     const Box2i window({0, 0}, {kSide - 1, 6 * kSide - 1});
-    write(window, window, Imf::ENVMAP_CUBE,
-          [](int, int y) { return glm::vec3(static_cast<float>(y / kSide)); });
+    write(window, window, Imf::ENVMAP_CUBE, [](int, int y) {
+        const int face = y / kSide;
+        return glm::vec3(static_cast<float>(face));
+    });
     const Image map = read();
     ASSERT_EQ(map.width, 32u);
     ASSERT_EQ(map.height, 16u);
@@ -160,7 +162,8 @@ TEST_F(ExrSphere, CubeShowsInEveryDirectionWhatItHoldsThere) {
     Image faces(kSide, 6 * kSide);
     for (int face = 0; face < 6; ++face)
         for (int i = 0; i < kSide * kSide; ++i) {
-            const Imath::V2f inFace(static_cast<float>(i % kSide), static_cast<float>(i / kSide));
+            const int row = i / kSide;
+            const Imath::V2f inFace(static_cast<float>(i % kSide), static_cast<float>(row));
             const Imath::V3f d = Imf::CubeMap::direction(Imf::CubeMapFace(face), window, inFace).normalized();
             const Imath::V2f at = Imf::CubeMap::pixelPosition(Imf::CubeMapFace(face), window, inFace);
             faces.pixels[static_cast<size_t>(std::lround(at.y * kSide + at.x))] =

@@ -1,8 +1,9 @@
 // Radiance files, as bytes written by hand: what they mean, and what is refused.
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <string>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
 
 #include "base/error.h"
 #include "base/file.h"
@@ -66,7 +67,7 @@ TEST_F(HdrTest, ColourCorrectionsAreUndone) {
     EXPECT_EQ(read(kHead + "COLORCORR=+2.0\t1 1\nEXPOSURE=4\nCOLORCORR=1 2e0 1" + pixels).at(0, 0),
               glm::vec3(2, 1, 1));
     for (const char* value : {"", "1", "1 2", "1 2 x", "1 0 1", "1 -1 1"})
-        expectRefusal(kHead + "COLORCORR=" + value + pixels, "colour correction");
+        expectRefusal(fmt::format("{}COLORCORR={}{}", kHead, value, pixels), "colour correction");
     const std::string field = std::string(LAVALIGHT_SOURCE_DIR) + "/tests/field/colorcorr.hdr";
     const Image halved = readHdr(field); // its header says 2 1 1
     std::string bytes = readFile(field);

@@ -74,7 +74,7 @@ TEST(Picture, OtherFormatsThatTheLibraryKnowsAreNotDecoded) {
     expectError(gif, "it is not a PNG, JPEG or WebP file");
     expectError("P6 1 1 255\n123", "it is not a PNG, JPEG or WebP file");
     expectError("", "it is not a PNG, JPEG or WebP file");
-    expectError("RIFF\x04\x00\x00\x00WEBP", "not a PNG, JPEG or WebP"); // cut by the zero
+    expectError("RIFF\x04", "not a PNG, JPEG or WebP");
     expectError(std::string("RIFF\x04\0\0\0WEBP", 12), "it is a damaged WebP file");
 }
 

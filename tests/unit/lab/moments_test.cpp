@@ -18,6 +18,7 @@ TEST(Moments, OfKnownNumbersAreTheirMeanAndVariance) {
 
 TEST(Moments, OfPartsAreThoseOfTheWhole) {
     std::vector<double> values;
+    values.reserve(100);
     for (int i = 0; i < 100; ++i)
         values.push_back(1e6 + i % 7 - 0.3 * (i % 11)); // a large mean: sums of squares would cancel
     const Moments whole = momentsOf(values);

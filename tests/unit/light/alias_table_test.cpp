@@ -45,6 +45,7 @@ TEST(AliasTable, PicksAsOftenAsItsPmfSays) {
     constexpr uint32_t kPicks = 1000000;
     std::vector<uint32_t> observed(table.size(), 0);
     std::vector<double> expected;
+    expected.reserve(table.size());
     Random random(2);
     for (uint32_t i = 0; i < kPicks; ++i)
         ++observed[pick(table, random)];
