@@ -16,8 +16,8 @@ namespace lavalight {
 [[nodiscard]] inline uint32_t encodeSrgb8(float linear) {
     const float x = linear > 0.0f ? std::min(linear, 1.0f) : 0.0f;
     const float signal = x <= 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1.0f / 2.4f) - 0.055f;
-    return static_cast<uint32_t>(255.0f * signal +
-                                 0.5f); // NOLINT(bugprone-incorrect-roundings): it is positive
+    // NOLINTNEXTLINE(bugprone-incorrect-roundings): the signal is not negative.
+    return static_cast<uint32_t>(255.0f * signal + 0.5f);
 }
 
 } // namespace lavalight

@@ -100,10 +100,9 @@ std::vector<Table> runStrata(gpu::Device& device, const LabOptions& options) {
         "A stratum i is picked with probability p_i, then a point in it; the sample is f(x) / (n p_i).",
         "Uniform picking gains nothing, however many strata: the point is as random as before.",
         ("Probabilities that follow the function leave only the variance within strata. In the limit they "
-         "are "
-         "the pdf f / integral, sampled by inverting its cumulative function, and every sample is the "
-         "integral: variance 0, up to rounding. (Who can do that needs no sampling; in practice the pdf "
-         "follows the function as far as it is known.)"),
+         "are the pdf f / integral, sampled by inverting its cumulative function, and every sample is "
+         "the integral: variance 0, up to rounding. (Who can do that needs no sampling; in practice the "
+         "pdf follows the function as far as it is known.)"),
         "The backwards probabilities are a bad choice, yet unbiased like any others that are nowhere zero.",
         ("One point in each stratum, the classical stratification, takes the variance between strata away "
          "without any knowledge of the function.")};

@@ -11,6 +11,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "support/spawn.h"
+
 namespace lavalight::test {
 namespace {
 
@@ -55,11 +57,7 @@ std::string contents(std::FILE* file) {
 ProgramResult runLavalight(const std::vector<std::string>& arguments, const std::filesystem::path& folder) {
     std::vector<std::string> words = {LAVALIGHT_BINARY};
     words.insert(words.end(), arguments.begin(), arguments.end());
-    std::vector<char*> argv;
-    argv.reserve(words.size() + 1);
-    for (std::string& word : words)
-        argv.push_back(word.data());
-    argv.push_back(nullptr);
+    const std::vector<char*> argv = argvOf(words);
     const File out = unnamedFile();
     const File err = unnamedFile();
 

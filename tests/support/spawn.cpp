@@ -6,6 +6,15 @@
 
 namespace lavalight::test {
 
+std::vector<char*> argvOf(std::vector<std::string>& words) {
+    std::vector<char*> argv;
+    argv.reserve(words.size() + 1);
+    for (std::string& word : words)
+        argv.push_back(word.data());
+    argv.push_back(nullptr);
+    return argv;
+}
+
 void Spawn::open(int stream, const std::string& file, int flags) {
     ::posix_spawn_file_actions_addopen(&actions_, stream, file.c_str(), flags, 0600);
 }
@@ -19,11 +28,7 @@ void Spawn::workIn(const std::string& folder) {
 }
 
 pid_t Spawn::start(std::vector<std::string> words) const {
-    std::vector<char*> argv;
-    argv.reserve(words.size() + 1);
-    for (std::string& word : words)
-        argv.push_back(word.data());
-    argv.push_back(nullptr);
+    const std::vector<char*> argv = argvOf(words);
     pid_t process = 0;
     if (::posix_spawnp(&process, argv.front(), &actions_, nullptr, argv.data(), ::environ) != 0)
         throw std::runtime_error("cannot run " + words.front());

@@ -9,6 +9,9 @@
 
 namespace lavalight::test {
 
+// The words as execve wants them, with a null pointer at the end. They must outlive it unchanged.
+[[nodiscard]] std::vector<char*> argvOf(std::vector<std::string>& words);
+
 // A program to be started, and what it gets that is not its parent's.
 class Spawn {
   public:
