@@ -34,13 +34,13 @@ TEST_P(EstimatorTest, EverySettingHasTheMeanOfTheDefault) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, EstimatorTest,
-                         testing::Values(Subject{"cornell-box", {256, 0.5}},
+                         testing::Values(Subject{"cornell-box", {512, 0.5}},
                                          Subject{"cornell-glass", {512, 0.5}, variantsOfDirections},
-                                         Subject{"veach-mis", {512, 0.1}}, Subject{"many-lights", {256, 0.1}},
-                                         Subject{"furnace", {128, 0.5}},
-                                         Subject{"large-small-light", {512, 0.1}},
+                                         Subject{"veach-mis", {1024, 0.1}},
+                                         Subject{"many-lights", {512, 0.1}}, Subject{"furnace", {256, 0.5}},
+                                         Subject{"large-small-light", {1024, 0.1}},
                                          Subject{"glass-caustic", {1024, 0.1}, variantsOfDirections},
-                                         Subject{"nested-glass", {64, 0.3, 12}}),
+                                         Subject{"nested-glass", {128, 0.3, 12}}),
                          [](const auto& subject) {
                              std::string name = subject.param.name;
                              std::replace(name.begin(), name.end(), '-', '_');
