@@ -1,6 +1,10 @@
 // Tests of loops over all processors.
 #include "base/parallel.h"
 
+#include <atomic>
+#include <thread>
+#include <vector>
+
 #include <gtest/gtest.h>
 
 namespace lavalight {
@@ -14,6 +18,20 @@ TEST(ForEachInParallel, VisitsEachNumberOnceAndReturnsWhenAllIsDone) {
             ASSERT_EQ(visits[i], 1) << i << " of " << count;
         EXPECT_EQ(visits[count], 0);
     }
+}
+
+TEST(ForEachInParallel, RunsWithinALoopAndOnSeveralThreadsAtOnce) {
+    std::atomic<int> visits = 0;
+    const auto nested = [&](std::size_t) { forEachInParallel(10, [&](std::size_t) { ++visits; }); };
+    std::vector<std::thread> threads;
+    for (int i = 0; i < 4; ++i)
+        threads.emplace_back([&] {
+            for (int loop = 0; loop < 50; ++loop)
+                forEachInParallel(10, nested);
+        });
+    for (std::thread& thread : threads)
+        thread.join();
+    EXPECT_EQ(visits, 4 * 50 * 10 * 10);
 }
 
 } // namespace
