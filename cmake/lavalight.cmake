@@ -52,3 +52,17 @@ function(lavalight_embed_kernels target)
     target_sources(${target} PRIVATE ${out})
     target_include_directories(${target} PUBLIC ${dir})
 endfunction()
+
+# lavalight_shaders_as_cpp(LIB OUT name.h FILES f.glsl...): GLSL that the host runs, as C++ members to be included within a
+# struct. Files are named below shaders/.
+function(lavalight_shaders_as_cpp lib)
+    cmake_parse_arguments(ARG "" "OUT" "FILES" ${ARGN})
+    set(dir ${CMAKE_BINARY_DIR}/generated/lavalight_${lib})
+    file(GLOB_RECURSE includes CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/shaders/*.glsl ${CMAKE_SOURCE_DIR}/shaders/*.h)
+    add_custom_command(OUTPUT ${dir}/${ARG_OUT}
+        COMMAND ${CMAKE_COMMAND} -E make_directory ${dir}
+        COMMAND shaders_as_cpp ${CMAKE_SOURCE_DIR}/shaders ${dir}/${ARG_OUT} ${ARG_FILES}
+        DEPENDS shaders_as_cpp ${includes} VERBATIM)
+    target_sources(lavalight_${lib} PRIVATE ${dir}/${ARG_OUT})
+    target_include_directories(lavalight_${lib} PRIVATE ${dir})
+endfunction()

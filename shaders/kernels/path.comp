@@ -6,7 +6,7 @@
 // soon each lane is at another vertex. With many triangles that decides: there a lane takes all its slots to the first
 // vertex first, puts by the paths that go on, and takes these up again afterwards.
 #include "scene/path_rays.glsl"
-#include "scene/path_vertex.glsl"
+#include "scene/scatter.glsl"
 #include "scene/tally.glsl"
 #include "shared/bindings.h"
 

@@ -1,7 +1,7 @@
 #version 460
 // One vertex of each path: what it emits, what lights send it directly, and where the path goes on.
 // Based on: Laine, Karras, Aila, "Megakernels Considered Harmful", HPG 2013.
-#include "scene/path_vertex.glsl"
+#include "scene/scatter.glsl"
 #include "scene/tally.glsl"
 #include "scene/wave.glsl"
 

@@ -50,11 +50,11 @@ InteriorList leaveInterior(InteriorList list, uint solid) {
     uvec4 entries = uvec4(interiorAt(list, 0u), interiorAt(list, 1u), interiorAt(list, 2u), interiorAt(list, 3u));
     const bvec4 isIt = equal(entries, uvec4(solidNumber(solid)));
     if (isIt.w)
-        entries.w = 0u;
+        entries = uvec4(entries.xyz, 0u);
     else if (isIt.z)
-        entries.zw = uvec2(entries.w, 0u);
+        entries = uvec4(entries.xyw, 0u);
     else if (isIt.y)
-        entries.yzw = uvec3(entries.zw, 0u);
+        entries = uvec4(entries.xzw, 0u);
     else if (isIt.x)
         entries = uvec4(entries.yzw, 0u);
     else if (interiorOverflow(list) > 0u)

@@ -24,7 +24,7 @@ float coverageAt(TriangleRecord triangle, vec3 b) {
 
 // What a ray's decisions hash, next to the triangle; dimension: kDimensionAlpha or kDimensionShadowAlpha.
 uint alphaSeed(SampleKey key, uint dimension) {
-    return pcg4d(uvec4(key.pixel, key.index, key.vertex << 8u | dimension, key.seed)).x;
+    return sceneHas(kFeatureAlpha) ? pcg4d(uvec4(key.pixel, key.index, key.vertex << 8u | dimension, key.seed)).x : 0u;
 }
 
 // All records of a triangle get one answer, by its surface.

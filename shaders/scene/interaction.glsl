@@ -11,8 +11,6 @@
 #include "shared/scene.h"
 #include "shared/wavefront.h"
 
-layout(set = 0, binding = BINDING_TRIANGLE_NORMALS) uniform utextureBuffer triangleNormals;
-
 struct Interaction {
     vec3 p;
     vec3 pError;   // bound on the error of p per component
@@ -118,7 +116,7 @@ Interaction makeInteraction(Hit hit, vec3 wo) {
     i.id = triangle.surface;
     i.emitter = emitterOf(triangle);
     i.material = triangle.material & kMaterialMask;
-    i.solid = sceneHas(kFeatureSolids) ? texelFetch(triangleNormals, int(attributeIndex(triangle.surface))).w : 0u;
+    i.solid = sceneHas(kFeatureSolids) ? solidOf(triangle.surface) : 0u;
     i.b = b;
     i.isLifted = false;
     i.lifted = i.p;

@@ -2,8 +2,8 @@
 #include "lib/camera.glsl"
 #include "lib/interior_list.glsl"
 #include "lib/math/ray_offset.glsl"
+#include "scene/alpha.glsl"
 #include "scene/frame.glsl"
-#include "scene/interaction.glsl"
 #include "scene/intersect.glsl"
 
 const Path kNewPath = Path(vec3(1.0), 0.0, vec3(0.0), 1.0);
@@ -33,7 +33,7 @@ Boundary boundaryAt(Hit hit, vec3 direction) {
     const vec3 ng = normalize(cross(triangle.v1 - triangle.v0, triangle.v2 - triangle.v0));
     Boundary boundary;
     boundary.isFront = dot(ng, direction) < 0.0;
-    boundary.solid = texelFetch(triangleNormals, int(attributeIndex(triangle.surface))).w;
+    boundary.solid = solidOf(triangle.surface);
     boundary.surface = triangle.surface;
     boundary.p = b.x * triangle.v0 + b.y * triangle.v1 + b.z * triangle.v2;
     boundary.ng = boundary.isFront ? ng : -ng;

@@ -1,5 +1,4 @@
-// One vertex of a path: what it emits, what lights send it directly, and where the path goes on.
-// Based on: Kajiya, "The Rendering Equation", 1986.
+// The parts of a path's vertex: what lights send it directly, and where the path goes on. scene/scatter.glsl puts them together.
 #include "lib/sampling/mis.glsl"
 #include "lib/math/onb.glsl"
 #include "lib/sampling/roulette.glsl"
@@ -125,76 +124,4 @@ Vertex makeVertex(Interaction surface, MaterialRecord material, vec3 wo, SampleK
                      ? 1.0
                      : survivalByAlbedo(kRoulette, frame.rouletteProbability, directionalAlbedo(v.bsdf, v.wo));
     return v;
-}
-
-// What there is to trace after a vertex.
-struct NextRays {
-    bool goesOn;
-    bool isCut;     // --max-bounces ended the path
-    uint crowdedSolid; // a solid that the path is in, where these are more than its list holds for the first time; else 0
-    float survival; // probability that roulette left the path; 1: nothing was drawn
-    Ray ray;
-    bool wantsShadowRay;
-    ShadowRay shadow;
-};
-
-NextRays nothingNext() {
-    NextRays next;
-    next.goesOn = false;
-    next.isCut = false;
-    next.crowdedSolid = 0u;
-    next.survival = 1.0;
-    next.wantsShadowRay = false;
-    return next;
-}
-
-// The vertex where `ray` met the scene, after `bounce` others: the path collects what is emitted there, and is scattered.
-NextRays scatter(Hit hit, Ray ray, uint slot, uint bounce, inout Path path) {
-    NextRays next = nothingNext();
-    if (sceneHas(kFeatureSolids) && (ray.interior.notes & kInteriorPassed) != 0u)
-        path.bsdfPdf = 0.0; // the boundaries that it passed block shadow rays: what it finds counts in full
-    if (hit.t == kInfinity) {
-        const vec3 found = path.throughput * environmentRadiance(frame, ray.direction) *
-                           foundLightWeight(path.bsdfPdf, missLightPdf(ray));
-        path.radiance += clamped(found, bounce);
-        return next;
-    }
-    Interaction surface = makeInteraction(hit, -ray.direction);
-    MaterialRecord material = fetchMaterial(surface.material);
-    if (sceneHas(kFeatureSolids) || sceneHas(kFeatureAttenuation))
-        path.throughput *= attenuationOf(hit, ray, surface, material);
-    const SampleKey key = keyOfSlot(slot, bounce + 1u);
-    const float throughCoat = coatTransmittance(material, -ray.direction, surface);
-    material = texturedMaterial(material, -ray.direction, key, surface);
-
-    // ---- Emission ----
-    if (sceneHas(kFeatureUnlit) && (material.flags & kMaterialUnlit) != 0u) {
-        path.radiance += clamped(path.throughput * material.baseColor, bounce);
-        return next;
-    }
-    const vec3 emission = throughCoat * emissionOf(material, surface.isFront);
-    if (emission != vec3(0.0))
-        path.radiance += clamped(
-            path.throughput * emission * foundLightWeight(path.bsdfPdf, hitLightPdf(surface, hit, ray)), bounce);
-    next.isCut = bounce >= frame.maxBounces;
-    if (next.isCut)
-        return next;
-    MediaSides media;
-    if (sceneHas(kFeatureSolids))
-        media = mediaSides(ray.interior, surface.solid, surface.isFront);
-    if (sceneHas(kFeatureSolids) || sceneHas(kFeatureDispersion))
-        chooseIndex(surface, media, key, path, material);
-    Vertex vertex = makeVertex(surface, material, -ray.direction, key);
-    if (sceneHas(kFeatureSolids))
-        vertex.media = media;
-
-    // ---- Next-event estimation ----
-    if (kNee != 0u && sceneHas(kFeatureLights) && hasNonDelta(vertex.bsdf))
-        next.wantsShadowRay = nextEvent(vertex, path.throughput, next.shadow);
-
-    // ---- BSDF sampling and roulette ----
-    next.goesOn = nextRay(vertex, path, next.ray) && survives(vertex, path, next.survival);
-    if (sceneHas(kFeatureSolids))
-        next.crowdedSolid = newlyCrowdedSolid(next.ray.interior);
-    return next;
 }

@@ -3,6 +3,7 @@
 #include "shared/triangle.h"
 
 layout(set = 0, binding = BINDING_TRIANGLES) uniform utextureBuffer triangles; // kTriangleTexels each
+layout(set = 0, binding = BINDING_TRIANGLE_NORMALS) uniform utextureBuffer triangleNormals;
 
 TriangleRecord loadTriangle(uint record) {
     const int texel = int(record * kTriangleTexels);
@@ -11,4 +12,9 @@ TriangleRecord loadTriangle(uint record) {
     const uvec4 c = texelFetch(triangles, texel + 2);
     return TriangleRecord(uintBitsToFloat(a.xyz), SurfaceId(a.w), uintBitsToFloat(b.xyz), b.w,
                           uintBitsToFloat(c.xyz), c.w);
+}
+
+// The solid whose boundary a surface is, or 0.
+uint solidOf(SurfaceId surface) {
+    return texelFetch(triangleNormals, int(attributeIndex(surface))).w;
 }

@@ -46,4 +46,8 @@
 
 #define BINDING_SOLIDS 31 // read only, as the scene's others
 
+// Records of the schedule "hosted".
+#define BINDING_RECORDS_IN 32
+#define BINDING_RECORDS_OUT 33
+
 #endif

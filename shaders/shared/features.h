@@ -49,6 +49,7 @@ SHARED_CONST SceneFeatures kFeatureOrthographic = SHARED_FEATURE(34u);
 SHARED_CONST SceneFeatures kFeatureSolids = SHARED_FEATURE(35u);        // paths keep a list of the solids that they are in
 SHARED_CONST SceneFeatures kFeatureManyTriangles = SHARED_FEATURE(36u); // so that it pays to trace alike rays together
 SHARED_CONST SceneFeatures kFeatureStartsVary = SHARED_FEATURE(37u);    // camera rays start in different solids
+SHARED_CONST SceneFeatures kFeatureEmission = SHARED_FEATURE(38u);      // a surface that emits
 
 LAVALIGHT_SHARED_END
 

@@ -58,6 +58,7 @@ struct FrameParameters {
 #define CONSTANT_TEXTURE_FILTER 10
 #define CONSTANT_FILM_PLANES 12 // planes of the film (scene/film.glsl)
 #define CONSTANT_SMOOTH_TERMINATOR 13
+#define CONSTANT_RECORD_PLANES 14 // planes of the hosted schedule's records (shared/records.h)
 
 SHARED_CONST uint kProjectionPerspective = 0u;
 SHARED_CONST uint kProjectionOrthographic = 1u;

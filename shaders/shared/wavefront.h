@@ -105,6 +105,8 @@ struct WaveRange {
     uint slotsPerLane; // fused kernel: how many an invocation takes, one after another
     uint wave;         // fused kernel: lanes of another wave start anew
     uint groupStride;  // fused kernel: workgroup i takes the lanes of group i * groupStride, modulo their number
+    uint firstRecord;  // hosted: the dispatch takes these records
+    uint recordCount;
 };
 
 LAVALIGHT_SHARED_END

@@ -1,6 +1,7 @@
 #include "accel/embree_triangles.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cstdint>
 #include <numeric>
 
@@ -36,6 +37,7 @@ void addTriangles(RTCDevice device, RTCScene scene, std::span<const Triangle> tr
 EmbreeTriangles::EmbreeTriangles(std::span<const Triangle> triangles, RTCBuildQuality quality,
                                  RTCSceneFlags flags)
     : device_(rtcNewDevice(nullptr)), scene_(device_ ? rtcNewScene(device_.get()) : nullptr) {
+    const auto start = std::chrono::steady_clock::now();
     if (!scene_)
         throw Error("cannot start Embree (out of memory?)");
     rtcSetSceneBuildQuality(scene_.get(), quality);
@@ -47,6 +49,19 @@ EmbreeTriangles::EmbreeTriangles(std::span<const Triangle> triangles, RTCBuildQu
         throw Error(fmt::format("cannot build Embree's tree over {} triangles: its error {}{}",
                                 triangles.size(), static_cast<int>(error),
                                 error == RTC_ERROR_OUT_OF_MEMORY ? ", out of memory" : ""));
+    buildSeconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+std::string EmbreeTriangles::identity() {
+    const EmbreeDevice device(rtcNewDevice(nullptr));
+    const auto is = [&](RTCDeviceProperty property) {
+        return device && rtcGetDeviceProperty(device.get(), property) != 0;
+    };
+    const char* const set = is(RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED)   ? "avx512"
+                            : !is(RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED) ? "sse"
+                            : __builtin_cpu_supports("avx2") != 0            ? "avx2"
+                                                                             : "avx";
+    return fmt::format("embree {} {}", RTC_VERSION_STRING, set);
 }
 
 } // namespace lavalight

@@ -2,11 +2,21 @@
 #pragma once
 
 #include <span>
+#include <string>
 
 #include "accel/embree_handles.h"
 #include "accel/triangle.h"
 
 namespace lavalight {
+
+// Flags of a scene whose rays the host traces for paths (src/hosted): watertight, with a filter for each
+// query.
+#if RTC_VERSION_MAJOR >= 4
+inline const RTCSceneFlags kTracedByHost =
+    RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_FILTER_FUNCTION_IN_ARGUMENTS;
+#else
+inline const RTCSceneFlags kTracedByHost = RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION;
+#endif
 
 class EmbreeTriangles {
   public:
@@ -15,10 +25,16 @@ class EmbreeTriangles {
                     RTCSceneFlags flags = RTC_SCENE_FLAG_NONE);
 
     [[nodiscard]] RTCScene scene() const { return scene_.get(); }
+    [[nodiscard]] double buildSeconds() const { return buildSeconds_; }
+
+    // Embree's version and the instruction set that it takes on this processor, by which its answers may
+    // differ: "embree 3.13.5 avx2".
+    [[nodiscard]] static std::string identity();
 
   private:
     EmbreeDevice device_;
     EmbreeScene scene_;
+    double buildSeconds_ = 0.0;
 };
 
 } // namespace lavalight

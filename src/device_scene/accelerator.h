@@ -1,13 +1,16 @@
 // The accelerator of a scene, which answers the two functions of shaders/scene/intersect.glsl: the only place
-// on the host that knows it is a BVH. Its folder of shaders/scene/ is its other half.
+// on the host that knows what it is. Kernels have a BVH, whose other half is a folder of shaders/scene/; the
+// host (src/hosted) has Embree.
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
-#include <string_view>
+#include <string>
 #include <vector>
 
 #include "accel/bvh.h"
+#include "accel/embree_triangles.h"
 #include "gpu/buffer.h"
 #include "gpu/kernel.h"
 #include "kernels/accelerator_name.h"
@@ -15,18 +18,28 @@
 
 namespace lavalight {
 
+enum class AcceleratorKind {
+    bvh8,  // traversed by kernels
+    embree // traversed by the host
+};
+
 // An accelerator before it is uploaded. Which builder made the tree decides no bit of a film.
 struct AcceleratorData {
-    Bvh bvh;
+    Bvh bvh;                                       // or
+    std::shared_ptr<const EmbreeTriangles> embree; // null: the BVH
 
-    // Triangle of each record, in the order in which kernels number records; triangles may repeat.
-    [[nodiscard]] std::span<const uint32_t> trianglesOfRecords() const { return bvh.leafTriangles; }
+    // Triangle of each record, in the order in which kernels number records; triangles may repeat. Embree's
+    // records are the triangles.
+    [[nodiscard]] std::vector<uint32_t> trianglesOfRecords(size_t triangles) const;
     // A record of each triangle.
     [[nodiscard]] std::vector<uint32_t> recordsOfTriangles(size_t triangles) const;
+    // The name that a film's identity records: Embree's has what it rounds by.
+    [[nodiscard]] std::string name() const;
 };
 
 // No device is needed. Throws Error where the triangles do not fit.
-[[nodiscard]] AcceleratorData buildAccelerator(std::span<const Triangle> triangles);
+[[nodiscard]] AcceleratorData buildAccelerator(std::span<const Triangle> triangles,
+                                               AcceleratorKind kind = AcceleratorKind::bvh8);
 
 class Accelerator {
   public:
@@ -37,13 +50,14 @@ class Accelerator {
     // Puts the buffers into `resources` under the names of the kernels.
     void addTo(gpu::ResourceTable& resources) const;
 
-    // The name that a film's identity records.
-    [[nodiscard]] static std::string_view name() { return kAcceleratorName; }
+    // Null where kernels traverse a BVH.
+    [[nodiscard]] const EmbreeTriangles* embree() const { return embree_.get(); }
     [[nodiscard]] double buildSeconds() const { return buildSeconds_; }
     [[nodiscard]] uint64_t bytes() const { return nodes_.bytes() + triangles_.bytes(); }
 
   private:
     double buildSeconds_;
+    std::shared_ptr<const EmbreeTriangles> embree_;
     gpu::Buffer nodes_;
     gpu::Buffer triangles_;
 };

@@ -27,7 +27,7 @@ Fingerprints fingerprintsOf(const SceneData& scene) {
         {"textures", hashOfAll(pictures, textureRecords, firstRecords)},
         {"lights", hashOfAll(lights, punctuals, lightTree)},
         {"environment map", hashOfAll(environmentMap, environmentQuads)},
-        {"accelerator", std::string(Accelerator::name())},
+        {"accelerator", accelerator.name()},
     };
 }
 

@@ -187,13 +187,13 @@ void requireMemoryForTriangles(const Scene& scene) {
 
 } // namespace
 
-SceneData packScene(const Scene& scene, const Lights& lights) {
+SceneData packScene(const Scene& scene, const Lights& lights, AcceleratorKind kind) {
     requireMemoryForTriangles(scene);
     const std::vector<Triangle> triangles = sceneTriangles(scene);
     SceneData data;
     data.features = sceneFeatures(scene, lights);
     packSurfaceDetail(scene, data);
-    data.accelerator = buildAccelerator(triangles);
+    data.accelerator = buildAccelerator(triangles, kind);
     std::vector<uint32_t> words = materialWords(scene);
     keepCrowdedDown(scene, triangles, words);
     data.triangles = packTriangles(triangles, lights.emitters, words);

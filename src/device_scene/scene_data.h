@@ -36,7 +36,8 @@ struct SceneData {
 
 // Builds the accelerator and packs everything; no device is needed. `lights`
 // are the scene's. Throws Error for more triangles than memory could hold.
-[[nodiscard]] SceneData packScene(const Scene& scene, const Lights& lights);
+[[nodiscard]] SceneData packScene(const Scene& scene, const Lights& lights,
+                                  AcceleratorKind kind = AcceleratorKind::bvh8);
 // With its own environment, and lights picked by power.
 [[nodiscard]] SceneData packScene(const Scene& scene);
 

@@ -72,6 +72,7 @@ bool wantsTangents(const Material& material) {
 SceneFeatures featuresOf(const Material& material) {
     SceneFeatures features = lobesOf(material) | extendedLobesOf(material);
     const bool emits = material.emission != glm::vec3(0.0f) && !material.isUnlit;
+    features |= emits ? kFeatureEmission : 0u;
     features |= emits && material.clearcoat > 0.0f ? kFeatureCoatedLights : 0u;
     features |= textureSlots(material) != 0 ? kFeatureTextures : 0u;
     features |= wantsTangents(material) ? kFeatureTangents : 0u;
@@ -130,17 +131,20 @@ bool wantsInteriorLists(const Scene& scene) {
            std::any_of(scene.solids.begin(), scene.solids.end(), isThinForItsPlace) || anyTouch(scene.solids);
 }
 
-SceneFeatures sceneFeatures(const Scene& scene, const Lights& lights) {
-    SceneFeatures features = 0;
-    std::vector<bool> isWorn(scene.materials.size(), false);
+std::vector<SceneFeatures> surfaceFeatures(const Scene& scene) {
+    std::vector<SceneFeatures> features(scene.materials.size(), 0);
     for (const Mesh& mesh : scene.meshes) {
         const Material& material = scene.materials[mesh.material];
-        features |= featuresOf(mesh);
-        features |= mesh.solid == 0 && attenuates(material) ? kFeatureAttenuation : 0u;
-        isWorn[mesh.material] = true;
+        features[mesh.material] |= featuresOf(material) | featuresOf(mesh);
+        features[mesh.material] |= mesh.solid == 0 && attenuates(material) ? kFeatureAttenuation : 0u;
     }
-    for (size_t i = 0; i < scene.materials.size(); ++i)
-        features |= isWorn[i] ? featuresOf(scene.materials[i]) : 0u;
+    return features;
+}
+
+SceneFeatures sceneFeatures(const Scene& scene, const Lights& lights) {
+    SceneFeatures features = 0;
+    for (const SceneFeatures ofSurfaces : surfaceFeatures(scene))
+        features |= ofSurfaces;
     const std::vector<bool> transparent = transparentMeshes(scene);
     features |=
         std::find(transparent.begin(), transparent.end(), true) != transparent.end() ? kFeatureAlpha : 0u;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
 #include "gpu/spirv_passes.h"
 #include "light/lights.h"
@@ -12,6 +13,9 @@ namespace lavalight {
 
 // The scene's kFeature... bits (shaders/shared/features.h). `lights`: those of the scene that have power.
 [[nodiscard]] SceneFeatures sceneFeatures(const Scene& scene, const Lights& lights);
+// The bits of them that come from surfaces, for each material of the scene: its own, and those of the meshes
+// that wear it. None for a material that no mesh wears.
+[[nodiscard]] std::vector<SceneFeatures> surfaceFeatures(const Scene& scene);
 // Whether paths have to know which solids they are in: where these attenuate, overlap or touch, or are thin
 // for their distance from the origin. Elsewhere the side of a surface tells all that matters.
 [[nodiscard]] bool wantsInteriorLists(const Scene& scene);

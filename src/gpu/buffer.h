@@ -45,6 +45,14 @@ class Buffer {
         return values;
     }
 
+    // The memory itself, where the host reads and writes it as fast as its own: on a CPU. Else empty. What
+    // the host writes, kernels of later submissions see; no submission that uses the buffer may be running.
+    template <typename T>
+    [[nodiscard]] std::span<T> mapped() const {
+        static_assert(std::is_trivially_copyable_v<T>);
+        return {static_cast<T*>(hostMemory()), hostMemory() == nullptr ? 0 : bytes_ / sizeof(T)};
+    }
+
     [[nodiscard]] vk::Buffer handle() const { return *buffer_; }
     // Null on a device that stores texels in storage buffers.
     [[nodiscard]] vk::BufferView texelView() const { return *view_; }
@@ -52,6 +60,7 @@ class Buffer {
   private:
     void create();
     void allocate();
+    [[nodiscard]] void* hostMemory() const { return plan_.isReadMapped ? mapped_ : nullptr; }
 
     Device* device_; // outlives every buffer
     std::string name_;

@@ -63,6 +63,9 @@ Device::Device(const DeviceConfig& config)
     queueFamily_ = *findComputeFamily(physical_);
     limits_ = readLimits(physical_, queueFamily_);
     memory_ = physical_.getMemoryProperties();
+    const std::vector<MemoryPlan> plans =
+        gpu::planMemory(memory_, heapBytes_, {BufferUse::storage, 0, ~0u, stagesBuffers_});
+    description_.sharesMemory = description_.isCpu && !plans.empty() && plans.front().isReadMapped;
     runsAhead_ = config.runsAhead || !description_.isCpu;
     storesTexels_ = config.storesTexels || !hasTexelBuffers(physical_.getProperties().limits);
 

@@ -43,6 +43,7 @@ struct DeviceDescription {
     std::string apiVersion;
     std::vector<std::string> refusals; // why this device cannot render; empty: it can
     bool isCpu = false;
+    bool sharesMemory = false; // of the device in use: the host reads and writes its buffers where they lie
 };
 
 // Every Vulkan device of this machine. Throws Error where there is no Vulkan loader or driver.

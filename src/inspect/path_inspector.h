@@ -19,13 +19,15 @@ struct TracedPath {
     glm::vec3 radiance{0.0f};           // what the sample adds to its pixel
 };
 
-// Follows paths with the kernel trace_path, which has the estimator's own functions and is compiled once.
+// Follows paths with a kernel that has the estimator's own functions and is compiled once: trace_path, or
+// hosted/trace_path for renders whose rays the host traces.
 class PathInspector {
   public:
-    // For renders with the renderer's estimator and features. The device must outlive it. Throws Error.
+    // For renders with the renderer's estimator, features and accelerator. The device must outlive it. Throws
+    // Error.
     PathInspector(gpu::Device& device, const Renderer& renderer, const KernelSource& source = embeddedKernel);
 
-    // Whether this one's kernel is that of the renderer's estimator and features.
+    // Whether this one's kernel is that of the renderer's estimator, features and accelerator.
     [[nodiscard]] bool serves(const Renderer& renderer) const;
 
     // The path that sample number `sample` of `pixel` (from the top left) takes with the renderer's scene,
@@ -33,8 +35,12 @@ class PathInspector {
     [[nodiscard]] TracedPath trace(const Renderer& renderer, const glm::uvec2& pixel, uint32_t sample) const;
 
   private:
+    class State;
+    [[nodiscard]] TracedVertex traceByHost(const Renderer& renderer, State& state, WaveRange range) const;
+
     gpu::Device* device_;
     std::vector<gpu::SpecialisationConstant> constants_;
+    bool isHosted_;
     gpu::Kernel kernel_;
 };
 

@@ -1,8 +1,8 @@
-// Traces given rays through a scene on the device: for benchmarks and tests of the traversal that the
-// wavefront uses.
+// Traces given rays through a scene as renders do, by its accelerator: for benchmarks and tests of traversal.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -17,8 +17,8 @@ namespace lavalight {
 
 class RayTracer {
   public:
-    // Builds the kernels, which are slower if they are to count. The device and the scene must outlive the
-    // tracer.
+    // Builds the kernels, if it is they that trace; they are slower if they are to count. The device and the
+    // scene must outlive the tracer.
     RayTracer(gpu::Device& device, const GpuScene& scene, bool countsVisits = false);
 
     // The most rays of one call: what a dispatch and a storage buffer of the device hold.
@@ -30,18 +30,20 @@ class RayTracer {
     // 0 < t < 1. Contributions are ignored.
     [[nodiscard]] std::vector<uint32_t> occluded(std::span<const ShadowRay> rays);
 
-    // Device time of the last call's kernel; 0 on a queue without timestamps.
+    // Device time of the last call's kernel, 0 on a queue without timestamps; or the host's time.
     [[nodiscard]] double lastSeconds() const { return lastSeconds_; }
-    // What the rays of the last call visited altogether, modulo 2^32; nothing unless the tracer counts.
+    // What the rays of the last call visited altogether, modulo 2^32; nothing unless kernels count.
     [[nodiscard]] const VisitCounts& lastVisits() const { return lastVisits_; }
 
   private:
+    template <typename Answer, typename GivenRay, typename Trace>
+    std::vector<Answer> byHost(std::span<const GivenRay> rays, const Trace& trace);
     void run(const gpu::Kernel& kernel, gpu::ResourceTable resources, size_t rays);
 
     gpu::Device* device_;
     const GpuScene* scene_;
-    gpu::Kernel closest_;
-    gpu::Kernel any_;
+    std::optional<gpu::Kernel> closest_; // none: the host traces
+    std::optional<gpu::Kernel> any_;
     gpu::Buffer visits_;
     VisitCounts lastVisits_{};
     double lastSeconds_ = 0.0;

@@ -3,9 +3,13 @@
 #include <algorithm>
 #include <cassert>
 #include <chrono>
+#include <utility>
+
+#include <fmt/format.h>
 
 #include "device_scene/scene_features.h"
 #include "gpu/warm_up.h"
+#include "hosted/record_planes.h"
 #include "render/setting_table.h"
 
 namespace lavalight {
@@ -20,32 +24,65 @@ std::vector<gpu::SpecialisationConstant> estimatorConstants(const EstimatorSetti
     return constants;
 }
 
-EstimatorKernels::EstimatorKernels(gpu::Device& device, std::span<const std::string_view> names,
+std::string variantName(std::string_view kernel, const MaterialClass& materials) {
+    return fmt::format("{} of {} materials", kernel, materials.name);
+}
+
+std::vector<KernelVariant> kernelVariants(std::span<const Phase> phases, Schedule schedule,
+                                          const MaterialClasses& classes) {
+    std::vector<KernelVariant> variants;
+    for (const std::string_view kernel : kernelNames(phases, schedule)) {
+        const auto scatters = [&](const Phase& phase) { return phase.transport->hosted.scatter == kernel; };
+        if (schedule != Schedule::hosted || std::none_of(phases.begin(), phases.end(), scatters))
+            variants.push_back({std::string(kernel), kernel});
+        else
+            for (const MaterialClass& materials : classes.list)
+                variants.push_back({variantName(kernel, materials), kernel, materials.without});
+    }
+    return variants;
+}
+
+EstimatorKernels::EstimatorKernels(gpu::Device& device, std::vector<KernelVariant> variants,
                                    const EstimatorSettings& settings, SceneFeatures features,
                                    const KernelSource& source)
-    : constants_(estimatorConstants(settings, features)) {
+    : settings_(settings), features_(features), constants_(estimatorConstants(settings, features)),
+      variants_(std::move(variants)) {
     const auto start = std::chrono::steady_clock::now();
     std::vector<const gpu::Kernel*> made;
-    for (const std::string_view name : names)
-        made.push_back(
-            &kernels_.try_emplace(std::string(name), device, source(name), constants_).first->second);
+    for (const KernelVariant& variant : variants_)
+        made.push_back(&kernels_.try_emplace(variant.name, compile(device, variant, source)).first->second);
     gpu::warmUp(device, made);
     seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+gpu::Kernel EstimatorKernels::compile(gpu::Device& device, const KernelVariant& variant,
+                                      const KernelSource& source) const {
+    // Records are laid out by the features of the whole scene.
+    std::vector<gpu::SpecialisationConstant> constants =
+        estimatorConstants(settings_, features_ & ~variant.without);
+    constants.push_back({CONSTANT_RECORD_PLANES, recordPlanes(features_)});
+    return {device, source(variant.kernel), constants};
+}
+
 std::vector<std::string> EstimatorKernels::changed(const KernelSource& source) const {
     std::vector<std::string> names;
-    for (const auto& [name, kernel] : kernels_)
-        if (source(name).content != kernel.code().content)
-            names.push_back(name);
+    for (const KernelVariant& variant : variants_)
+        if (isChanged(variant, source) &&
+            std::find(names.begin(), names.end(), variant.kernel) == names.end())
+            names.emplace_back(variant.kernel);
     return names;
+}
+
+bool EstimatorKernels::isChanged(const KernelVariant& variant, const KernelSource& source) const {
+    return source(variant.kernel).content != (*this)[variant.name].code().content;
 }
 
 KernelMap EstimatorKernels::compileChanged(gpu::Device& device, const KernelSource& source) const {
     KernelMap fresh;
     std::vector<const gpu::Kernel*> made;
-    for (const std::string& name : changed(source))
-        made.push_back(&fresh.try_emplace(name, device, source(name), constants_).first->second);
+    for (const KernelVariant& variant : variants_)
+        if (isChanged(variant, source))
+            made.push_back(&fresh.try_emplace(variant.name, compile(device, variant, source)).first->second);
     if (!made.empty())
         gpu::warmUp(device, made);
     return fresh;
@@ -57,12 +94,10 @@ void EstimatorKernels::replace(KernelMap compiled) noexcept {
     kernels_.merge(compiled); // kernels stay at their addresses, which bound ones know
 }
 
-bool EstimatorKernels::serve(std::span<const std::string_view> names, const EstimatorSettings& settings,
+bool EstimatorKernels::serve(std::span<const KernelVariant> variants, const EstimatorSettings& settings,
                              SceneFeatures features) const {
-    const bool hasAll = names.size() == kernels_.size() &&
-                        std::all_of(names.begin(), names.end(),
-                                    [&](std::string_view name) { return kernels_.contains(name); });
-    return hasAll && estimatorConstants(settings, features) == constants_;
+    return std::ranges::equal(variants, variants_) && features == features_ &&
+           estimatorConstants(settings, features) == constants_;
 }
 
 const gpu::Kernel& EstimatorKernels::operator[](std::string_view name) const {

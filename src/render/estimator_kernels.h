@@ -9,8 +9,10 @@
 #include <utility>
 #include <vector>
 
+#include "device_scene/material_classes.h"
 #include "gpu/kernel.h"
 #include "kernels/kernel_source.h"
+#include "render/phase.h"
 #include "render/settings.h"
 #include "shared/features.h"
 
@@ -21,13 +23,27 @@ namespace lavalight {
 [[nodiscard]] std::vector<gpu::SpecialisationConstant> estimatorConstants(const EstimatorSettings& settings,
                                                                           SceneFeatures features);
 
+// A kernel, or what a class of materials leaves of it.
+struct KernelVariant {
+    std::string name;          // unlike those of other variants
+    std::string_view kernel;   // its file in shaders/kernels, without .comp; lasts as long as the program
+    SceneFeatures without = 0; // features of the scene that it does not need
+    bool operator==(const KernelVariant&) const = default;
+};
+
+// Those of the phases, each once. `classes`: of the scene's materials; Schedule::hosted asks for them.
+[[nodiscard]] std::vector<KernelVariant> kernelVariants(std::span<const Phase> phases, Schedule schedule,
+                                                        const MaterialClasses& classes);
+// The name of the variant of a kernel for a class.
+[[nodiscard]] std::string variantName(std::string_view kernel, const MaterialClass& materials);
+
 using KernelMap = std::map<std::string, gpu::Kernel, std::less<>>;
 
 // Kernels of a render, specialised, and compiled by the driver. No scene need be uploaded yet.
 class EstimatorKernels {
   public:
-    // `names`: kernelNames() of the render's phases.
-    EstimatorKernels(gpu::Device& device, std::span<const std::string_view> names,
+    // `variants`: kernelVariants() of the render's phases.
+    EstimatorKernels(gpu::Device& device, std::vector<KernelVariant> variants,
                      const EstimatorSettings& settings, SceneFeatures features, const KernelSource& source);
 
     // Names of the kernels whose code `source` changes. Throws Error as `source` does.
@@ -37,11 +53,11 @@ class EstimatorKernels {
     // Puts compiled kernels in the places of those of their names, which nothing may be bound to any more.
     void replace(KernelMap compiled) noexcept;
 
-    // The kernel must be one of those of the constructor.
+    // The variant must be one of those of the constructor.
     [[nodiscard]] const gpu::Kernel& operator[](std::string_view name) const;
     [[nodiscard]] const KernelMap& all() const { return kernels_; }
     // Whether they are what the constructor would make of these.
-    [[nodiscard]] bool serve(std::span<const std::string_view> names, const EstimatorSettings& settings,
+    [[nodiscard]] bool serve(std::span<const KernelVariant> variants, const EstimatorSettings& settings,
                              SceneFeatures features) const;
     // For another render, which they cost no time.
     [[nodiscard]] EstimatorKernels handOn() && {
@@ -53,7 +69,14 @@ class EstimatorKernels {
     [[nodiscard]] double seconds() const { return seconds_; }
 
   private:
-    std::vector<gpu::SpecialisationConstant> constants_;
+    [[nodiscard]] bool isChanged(const KernelVariant& variant, const KernelSource& source) const;
+    [[nodiscard]] gpu::Kernel compile(gpu::Device& device, const KernelVariant& variant,
+                                      const KernelSource& source) const;
+
+    EstimatorSettings settings_;
+    SceneFeatures features_;
+    std::vector<gpu::SpecialisationConstant> constants_; // of all features
+    std::vector<KernelVariant> variants_;
     KernelMap kernels_;
     double seconds_ = 0.0;
 };

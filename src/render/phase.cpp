@@ -18,8 +18,12 @@ std::vector<std::string_view> kernelNames(std::span<const Phase> phases, Schedul
     };
     for (const Phase& phase : phases) {
         const Transport& transport = *phase.transport;
+        const HostedKernels& hosted = transport.hosted;
         if (schedule == Schedule::fused)
             add(transport.fusedKernel);
+        else if (schedule == Schedule::hosted)
+            for (const std::string_view kernel : {hosted.camera, hosted.scatter, hosted.escape})
+                add(kernel);
         else
             for (const std::span<const KernelStep> steps : {transport.start, transport.bounce})
                 for (const KernelStep& step : steps)

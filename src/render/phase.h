@@ -23,6 +23,7 @@ struct Phase {
 [[nodiscard]] std::vector<Phase> phasesOf(const RenderSettings& settings);
 
 // Names of the kernels that the phases run by a schedule, each once. The schedule must not be automatic.
+// Schedule::hosted may run several variants of one: kernelVariants() in render/estimator_kernels.h.
 [[nodiscard]] std::vector<std::string_view> kernelNames(std::span<const Phase> phases, Schedule schedule);
 [[nodiscard]] std::vector<std::string_view> kernelNames(const RenderSettings& settings);
 

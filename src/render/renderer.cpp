@@ -11,6 +11,8 @@
 #include <vector>
 
 #include "device_scene/scene_features.h"
+#include "hosted/host_rays.h"
+#include "render/schedule_choice.h"
 #include "render/wave_budget.h"
 #include "scene/clipping.h"
 #include "scene/starting_solids.h"
@@ -24,10 +26,6 @@ namespace {
 static_assert(static_cast<uint32_t>(Projection::perspective) == kProjectionPerspective &&
               static_cast<uint32_t>(Projection::orthographic) == kProjectionOrthographic &&
               static_cast<uint32_t>(Projection::panorama) == kProjectionPanorama);
-
-// Slots of a wave where the settings leave it open. On lavapipe with two threads, larger waves make the fused
-// kernel no faster, and the wavefront by a tenth at 2^20; --time and Ctrl-C wait for the end of a wave.
-constexpr uint32_t kWaveSize = 1u << 18;
 
 // Constant radiance, or what the map's texels are multiplied by.
 glm::vec3 environmentFactor(const Scene& scene, const RenderSettings& settings) {
@@ -50,6 +48,10 @@ WaveWalk walkThrough(const RenderSettings& settings, const Film& film) {
     return {phasesOf(settings), std::move(limits)};
 }
 
+std::vector<KernelVariant> variantsFor(const RenderSettings& settings, const MaterialClasses& classes) {
+    return kernelVariants(phasesOf(settings), settings.work.schedule, classes);
+}
+
 } // namespace
 
 RenderSettings resolveSize(RenderSettings settings, const Camera& camera) {
@@ -59,14 +61,6 @@ RenderSettings resolveSize(RenderSettings settings, const Camera& camera) {
         settings.image.width =
             static_cast<uint32_t>(std::clamp(width, 1.0f, static_cast<float>(kMaxImageSide)));
     }
-    return settings;
-}
-
-RenderSettings resolveSchedule(RenderSettings settings, bool isCpu) {
-    if (settings.work.schedule == Schedule::automatic)
-        settings.work.schedule = isCpu ? Schedule::fused : Schedule::wavefront;
-    if (settings.work.waveSize == 0)
-        settings.work.waveSize = kWaveSize;
     return settings;
 }
 
@@ -157,11 +151,14 @@ bool keepsLights(const RenderSettings& a, const RenderSettings& b) {
 // kernels.
 struct Renderer::Setup {
     FrameParameters frame;
+    SceneFeatures features; // with the camera's
+    MaterialClasses classes;
     EstimatorKernels kernels;
     SceneData scene;
     LightSelection lightSelection;
 
-    using MakeKernels = std::function<EstimatorKernels(SceneFeatures features)>;
+    using MakeKernels =
+        std::function<EstimatorKernels(SceneFeatures features, const MaterialClasses& classes)>;
 
     static Setup make(const Scene& scene, const Camera& camera, const RenderSettings& settings,
                       const MakeKernels& makeKernels) {
@@ -169,11 +166,13 @@ struct Renderer::Setup {
         const Lights lights = collectLights(scene, environmentFactor(scene, settings),
                                             estimator.lightSelection, estimator.mis != Mis::off);
         std::future<SceneData> packed =
-            std::async(std::launch::async, [&] { return packScene(scene, lights); });
+            std::async(std::launch::async, [&] { return packScene(scene, lights, acceleratorOf(settings)); });
         FrameParameters frame = makeFrame(scene, camera, settings);
         setLights(frame, lights);
-        EstimatorKernels kernels = makeKernels(sceneFeatures(scene, lights) | viewFeatures(camera, frame));
-        return {frame, std::move(kernels), packed.get(), lights.selection};
+        const SceneFeatures features = sceneFeatures(scene, lights) | viewFeatures(camera, frame);
+        MaterialClasses classes = materialClasses(scene);
+        EstimatorKernels kernels = makeKernels(features, classes);
+        return {frame, features, std::move(classes), std::move(kernels), packed.get(), lights.selection};
     }
 };
 
@@ -181,6 +180,7 @@ struct Renderer::Setup {
 struct Renderer::Fresh {
     RenderSettings settings;
     FrameParameters frame;
+    SceneFeatures features;                    // with the camera's
     std::optional<EstimatorKernels> kernels{}; // none: the present ones serve, but for `changed`
     KernelMap changed{};
     std::optional<AlbedoTable> albedoTable{}; // none: the present one serves
@@ -190,26 +190,28 @@ struct Renderer::Fresh {
 Renderer::Renderer(gpu::Device& device, const Scene& scene, const Camera& camera,
                    const RenderSettings& wanted, const KernelSource& source)
     : Renderer(
-          device, resolveSchedule(wanted, device.description().isCpu),
+          device, resolveSchedule(wanted, device.description(), source),
           [&](const RenderSettings& settings) {
-              return Setup::make(scene, camera, settings, [&](SceneFeatures features) {
-                  return EstimatorKernels(device, kernelNames(settings), settings.estimator, features,
-                                          source);
-              });
+              const auto make = [&](SceneFeatures features, const MaterialClasses& classes) {
+                  return EstimatorKernels(device, variantsFor(settings, classes), settings.estimator,
+                                          features, source);
+              };
+              return Setup::make(scene, camera, settings, make);
           },
           source) {}
 
 Renderer::Renderer(gpu::Device& device, const Scene& scene, const Camera& camera,
                    const RenderSettings& wanted, EstimatorKernels earlier, const KernelSource& source)
     : Renderer(
-          device, resolveSchedule(wanted, device.description().isCpu),
+          device, resolveSchedule(wanted, device.description(), source),
           [&](const RenderSettings& settings) {
-              return Setup::make(scene, camera, settings, [&](SceneFeatures features) {
-                  const std::vector<std::string_view> names = kernelNames(settings);
-                  if (earlier.serve(names, settings.estimator, features))
+              const auto make = [&](SceneFeatures features, const MaterialClasses& classes) {
+                  std::vector<KernelVariant> variants = variantsFor(settings, classes);
+                  if (earlier.serve(variants, settings.estimator, features))
                       return std::move(earlier);
-                  return EstimatorKernels(device, names, settings.estimator, features, source);
-              });
+                  return EstimatorKernels(device, std::move(variants), settings.estimator, features, source);
+              };
+              return Setup::make(scene, camera, settings, make);
           },
           source) {}
 
@@ -220,9 +222,10 @@ Renderer::Renderer(gpu::Device& device, const RenderSettings& settings,
 Renderer::Renderer(gpu::Device& device, const RenderSettings& settings, Setup setup,
                    const KernelSource& source)
     : device_(&device), settings_(settings), frame_(setup.frame), sceneFeatures_(setup.scene.features),
-      kernels_(std::move(setup.kernels)), scene_(device, setup.scene, source),
+      features_(setup.features), classes_(std::move(setup.classes)), kernels_(std::move(setup.kernels)),
+      scene_(device, setup.scene, source),
       film_(device, settings.image.width, settings.image.height, settings.work.bandRows),
-      walk_(walkThrough(settings, film_)), waves_(makeWaves(Fresh{settings_, frame_})) {
+      walk_(walkThrough(settings, film_)), waves_(makeWaves(Fresh{settings_, frame_, features_})) {
     settings_.estimator.lightSelection = setup.lightSelection;
 }
 
@@ -231,8 +234,16 @@ bool Renderer::wantsAlbedoTable(const KernelSource& source) const {
     return !content.empty() && source("albedo").content != content;
 }
 
+bool Renderer::keepsAccelerator(const RenderSettings& wanted, const KernelSource& source) const {
+    return acceleratorOf(resolveSchedule(wanted, device_->description(), source)) == acceleratorOf(settings_);
+}
+
 std::vector<std::string> Renderer::changedKernels(const KernelSource& source) const {
     std::vector<std::string> names = kernels_.changed(source);
+    if (settings_.work.schedule == Schedule::hosted)
+        for (const std::string_view kernel : kTracingKernels)
+            if (source(kernel).content != embeddedKernel(kernel).content)
+                names.emplace_back(kernel);
     if (wantsAlbedoTable(source))
         names.emplace_back("albedo");
     return names;
@@ -246,22 +257,22 @@ void Renderer::compileChanged(Fresh& fresh, const KernelSource& source) const {
 }
 
 void Renderer::reloadKernels(const KernelSource& source) {
-    Fresh fresh{settings_, frame_};
+    Fresh fresh{settings_, frame_, features_};
     compileChanged(fresh, source);
     startAnew(std::move(fresh));
 }
 
 void Renderer::restart(const Scene& scene, const Camera& camera, const RenderSettings& wanted,
                        const KernelSource& source) {
-    Fresh fresh{resolveSchedule(wanted, device_->description().isCpu), {}};
+    Fresh fresh{resolveSchedule(wanted, device_->description(), source), {}, 0};
     fresh.settings.estimator.lightSelection = settings_.estimator.lightSelection;
     fresh.frame = makeFrame(scene, camera, fresh.settings);
     copyLights(frame_, fresh.frame);
-    const SceneFeatures features = sceneFeatures_ | viewFeatures(camera, fresh.frame);
+    fresh.features = sceneFeatures_ | viewFeatures(camera, fresh.frame);
     const EstimatorSettings& estimator = fresh.settings.estimator;
-    const std::vector<std::string_view> names = kernelNames(fresh.settings);
-    if (!kernels_.serve(names, estimator, features))
-        fresh.kernels.emplace(*device_, names, estimator, features, source);
+    std::vector<KernelVariant> variants = variantsFor(fresh.settings, classes_);
+    if (!kernels_.serve(variants, estimator, fresh.features))
+        fresh.kernels.emplace(*device_, std::move(variants), estimator, fresh.features, source);
     compileChanged(fresh, source);
     if (fresh.settings.image.width != film_.width() || fresh.settings.image.height != film_.height())
         fresh.film.emplace(*device_, fresh.settings.image.width, fresh.settings.image.height,
@@ -279,8 +290,8 @@ std::unique_ptr<WaveRenderer> Renderer::makeWaves(const Fresh& fresh) const {
     };
     const AlbedoTable& albedo = fresh.albedoTable ? *fresh.albedoTable : scene_.albedoTable();
     const Film& film = fresh.film ? *fresh.film : film_;
-    return makeWaveRenderer(
-        *device_, {phases, fresh.settings.work.schedule, scene_, albedo.buffer, film, fresh.frame, kernel});
+    return makeWaveRenderer(*device_, {phases, fresh.settings.work.schedule, scene_, albedo.buffer, film,
+                                       fresh.frame, kernel, classes_, fresh.features});
 }
 
 // Everything that may fail comes first; what is bound to kernels and film goes before them.
@@ -300,6 +311,7 @@ void Renderer::startAnew(Fresh fresh) {
     filmIsEmptied_ = true;
     settings_ = fresh.settings;
     frame_ = fresh.frame;
+    features_ = fresh.features;
     walk_ = std::move(walk);
 }
 

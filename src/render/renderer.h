@@ -57,13 +57,18 @@ class Renderer {
 
     // Goes on with another view, settings or kernels, and an empty film. The scene stays on the device;
     // kernels are compiled where `source` has other code or those there are do not serve. `scene` is still
-    // the same, and so are its lights (keepsLights). Throws Error with everything as it was, though the image
-    // may have to start from its first sample. Until it is done, two states of a wave take memory.
+    // the same, and so are its lights (keepsLights) and its accelerator. Throws Error with everything as it
+    // was, though the image may have to start from its first sample. Until it is done, two states of a wave
+    // take memory.
     void restart(const Scene& scene, const Camera& camera, const RenderSettings& wanted,
                  const KernelSource& source);
 
-    // Names of the kernels whose code is another by `source`. Throws Error where one does not compile. May be
-    // asked while it renders.
+    // Whether restart() and reloadKernels() can serve these: a schedule with another accelerator needs the
+    // scene anew. Throws Error as `source` does.
+    [[nodiscard]] bool keepsAccelerator(const RenderSettings& wanted, const KernelSource& source) const;
+
+    // Names of the kernels whose code is another by `source`, those among them that the host replaces. Throws
+    // Error where one does not compile. May be asked while it renders.
     [[nodiscard]] std::vector<std::string> changedKernels(const KernelSource& source) const;
     // Goes on with the kernels of changedKernels(), and an empty film. Throws Error as restart() does.
     void reloadKernels(const KernelSource& source);
@@ -82,6 +87,8 @@ class Renderer {
     }
     // The parameters of all bands; bandPixels is left open.
     [[nodiscard]] const FrameParameters& frame() const { return frame_; }
+    // kFeature... bits of the scene and the camera.
+    [[nodiscard]] SceneFeatures features() const { return features_; }
     [[nodiscard]] const EstimatorKernels& kernels() const { return kernels_; }
     // Hands on the kernels; no sample may be taken any more.
     [[nodiscard]] EstimatorKernels releaseKernels() {
@@ -108,6 +115,8 @@ class Renderer {
     RenderSettings settings_;
     FrameParameters frame_;
     SceneFeatures sceneFeatures_; // kFeature..., without the camera's
+    SceneFeatures features_;      // with them
+    MaterialClasses classes_;
     EstimatorKernels kernels_;
     GpuScene scene_;
     Film film_;
@@ -126,9 +135,6 @@ class Renderer {
 
 // Whether a renderer of settings `a` may restart() with `b`, as far as the lights are concerned.
 [[nodiscard]] bool keepsLights(const RenderSettings& a, const RenderSettings& b);
-
-// Fills in the schedule and the wave size where the settings leave them to the device.
-[[nodiscard]] RenderSettings resolveSchedule(RenderSettings settings, bool isCpu);
 
 // Parameters for the kernels, but for lights.
 [[nodiscard]] FrameParameters makeFrame(const Scene& scene, const Camera& camera,

@@ -5,8 +5,10 @@
 namespace lavalight {
 namespace {
 
-constexpr std::array<SettingName<Schedule>, 3> kSchedules{
-    {{"auto", Schedule::automatic}, {"fused", Schedule::fused}, {"wavefront", Schedule::wavefront}}};
+constexpr std::array<SettingName<Schedule>, 4> kSchedules{{{"auto", Schedule::automatic},
+                                                           {"fused", Schedule::fused},
+                                                           {"wavefront", Schedule::wavefront},
+                                                           {"hosted", Schedule::hosted}}};
 constexpr std::array<SettingName<ToneCurve>, 4> kToneCurves{{{"linear", ToneCurve::linear},
                                                              {"neutral", ToneCurve::neutral},
                                                              {"agx", ToneCurve::agx},

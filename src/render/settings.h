@@ -21,7 +21,8 @@ using OptionPairs = std::vector<std::pair<std::string, std::string>>;
 enum class Schedule {
     automatic, // by the kind of device
     fused,     // one kernel for whole paths
-    wavefront  // a kernel for each step of a bounce
+    wavefront, // a kernel for each step of a bounce
+    hosted     // kernels shade, the host traces: for devices that share its memory
 };
 
 // The image, and which samples of each pixel are taken, at most StopRule::samples of them.

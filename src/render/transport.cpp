@@ -17,20 +17,26 @@ constexpr std::array kPathWavefrontState{
 constexpr std::array kPathFusedState{
     SlotBuffer{"Paths", "paths", sizeof(Path)},
     SlotBuffer{"WaitingPaths", "waiting paths", sizeof(WaitingPath), kFeatureManyTriangles}};
+constexpr std::array kPathHostedState{SlotBuffer{"Paths", "paths", sizeof(Path)}};
 
 } // namespace
 
-constinit const Transport kPathTransport{.name = "path",
-                                         .start = kPathStart,
-                                         .bounce = kPathBounce,
-                                         .wavefrontState = kPathWavefrontState,
-                                         .fusedKernel = "path",
-                                         .fusedState = kPathFusedState,
-                                         .sink = {"accumulate", Over::pixels}};
+constinit const Transport kPathTransport{
+    .name = "path",
+    .start = kPathStart,
+    .bounce = kPathBounce,
+    .wavefrontState = kPathWavefrontState,
+    .fusedKernel = "path",
+    .fusedState = kPathFusedState,
+    .hosted = {.camera = "hosted/camera", .scatter = "hosted/scatter", .escape = "hosted/escape"},
+    .hostedState = kPathHostedState,
+    .sink = {"accumulate", Over::pixels}};
 
 std::span<const SlotBuffer> stateOf(const Transport& transport, Schedule schedule) {
     assert(schedule != Schedule::automatic);
-    return schedule == Schedule::fused ? transport.fusedState : transport.wavefrontState;
+    return schedule == Schedule::fused    ? transport.fusedState
+           : schedule == Schedule::hosted ? transport.hostedState
+                                          : transport.wavefrontState;
 }
 
 } // namespace lavalight

@@ -34,6 +34,13 @@ struct SlotBuffer {
     SceneFeatures onlyWith = 0; // features without which no kernel uses the buffer; 0: kernels always do
 };
 
+// Kernels of Schedule::hosted.
+struct HostedKernels {
+    std::string_view camera;  // starts paths
+    std::string_view scatter; // takes the vertices of a class of materials
+    std::string_view escape;  // ends the paths whose rays met nothing
+};
+
 struct Transport {
     std::string_view name; // in reports
     // Schedule::wavefront: kernels at the start of a wave, then those of each bounce.
@@ -43,6 +50,9 @@ struct Transport {
     // Schedule::fused: one kernel takes whole paths; each invocation is a lane with several slots.
     std::string_view fusedKernel;
     std::span<const SlotBuffer> fusedState;
+    // Schedule::hosted.
+    HostedKernels hosted;
+    std::span<const SlotBuffer> hostedState;
     // The sink adds the results of a finished wave to the film.
     KernelStep sink;
 };
@@ -50,7 +60,7 @@ struct Transport {
 // The schedule must not be automatic.
 [[nodiscard]] std::span<const SlotBuffer> stateOf(const Transport& transport, Schedule schedule);
 
-// Paths from the camera, with next-event estimation at their vertices: shaders/scene/path_vertex.glsl.
+// Paths from the camera, with next-event estimation at their vertices: shaders/scene/scatter.glsl.
 extern const Transport kPathTransport;
 
 } // namespace lavalight

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "render/fused_paths.h"
+#include "render/hosted_paths.h"
 #include "render/wavefront.h"
 
 namespace lavalight {
@@ -23,6 +24,8 @@ std::unique_ptr<WaveRenderer> makeWaveRenderer(gpu::Device& device, const WaveIn
     assert(inputs.schedule != Schedule::automatic);
     if (inputs.schedule == Schedule::fused)
         return std::make_unique<FusedPaths>(device, inputs);
+    if (inputs.schedule == Schedule::hosted)
+        return std::make_unique<HostedPaths>(device, inputs);
     return std::make_unique<Wavefront>(device, inputs);
 }
 
@@ -43,6 +46,12 @@ void SlotState::addTo(gpu::ResourceTable& resources) const {
         resources.set(block, buffer);
 }
 
+const gpu::Buffer& SlotState::operator[](std::string_view block) const {
+    const auto found = buffers_.find(block);
+    assert(found != buffers_.end());
+    return found->second;
+}
+
 BoundBand::BoundBand(gpu::Device& device, const WaveInputs& inputs, const FilmBand& band,
                      gpu::ResourceTable resources)
     : frame_(uploadFrame(device, inputs.frame, band)) {
@@ -51,8 +60,8 @@ BoundBand::BoundBand(gpu::Device& device, const WaveInputs& inputs, const FilmBa
     resources.set("Tallies", inputs.film.tallies());
     resources.set("Frame", frame_);
     resources.set("Film", band.sums);
-    for (const std::string_view name : kernelNames(inputs.phases, inputs.schedule))
-        kernels_.try_emplace(name, device, inputs.kernel(name), resources);
+    for (const KernelVariant& variant : kernelVariants(inputs.phases, inputs.schedule, inputs.classes))
+        kernels_.try_emplace(variant.name, device, inputs.kernel(variant.name), resources);
 }
 
 const gpu::BoundKernel& BoundBand::operator[](std::string_view name) const {

@@ -1,5 +1,5 @@
-// Renderers of waves of paths: the interface of the two that there are, render/wavefront.h and
-// render/fused_paths.h.
+// Renderers of waves of paths: the interface of those that there are, render/wavefront.h,
+// render/fused_paths.h and render/hosted_paths.h.
 #pragma once
 
 #include <cstddef>
@@ -16,6 +16,7 @@
 #include "gpu/buffer.h"
 #include "gpu/commands.h"
 #include "gpu/kernel.h"
+#include "render/estimator_kernels.h"
 #include "render/film.h"
 #include "render/phase.h"
 #include "shared/frame.h"
@@ -42,7 +43,7 @@ class WaveRenderer {
     // Camera rays, then those to the next vertex, by bounce: the lengths of the queues. Empty where there are
     // no queues.
     [[nodiscard]] const std::vector<uint64_t>& raysPerBounce() const { return raysPerBounce_; }
-    // Device time of all waves; empty on a queue without timestamps.
+    // Device time of all waves, none on a queue without timestamps; and the host's, where it traces.
     [[nodiscard]] virtual gpu::KernelTimes kernelTimes() const = 0;
 
   protected:
@@ -62,7 +63,10 @@ struct WaveInputs {
     const gpu::Buffer& albedoTable; // the scene's or another
     const Film& film;
     const FrameParameters& frame;
-    std::function<const gpu::Kernel&(std::string_view name)> kernel;
+    std::function<const gpu::Kernel&(std::string_view name)> kernel; // by the names of kernelVariants()
+    // For Schedule::hosted: the scene's classes of materials, and its features with the camera's.
+    const MaterialClasses& classes;
+    SceneFeatures features;
 };
 
 // The device must outlive the renderer.
@@ -74,6 +78,8 @@ class SlotState {
     SlotState(gpu::Device& device, const WaveInputs& inputs);
 
     void addTo(gpu::ResourceTable& resources) const;
+    // The buffer of a block, which one of the transports must have.
+    [[nodiscard]] const gpu::Buffer& operator[](std::string_view block) const;
 
   private:
     std::map<std::string_view, gpu::Buffer> buffers_; // by block
@@ -90,7 +96,7 @@ class BoundBand {
 
   private:
     gpu::Buffer frame_;
-    std::map<std::string_view, gpu::BoundKernel> kernels_;
+    std::map<std::string, gpu::BoundKernel, std::less<>> kernels_;
 };
 
 [[nodiscard]] uint32_t groupsFor(uint32_t invocations);

@@ -37,6 +37,7 @@ struct RenderJob {
     Stopwatch watch{};
     const gpu::Device* device = nullptr; // outlives the job
     Scene scene{};
+    Camera camera{};
     std::unique_ptr<Renderer> renderer{};
     RenderReport report{};
     // Seconds from the start of the process to the end of the first wave.

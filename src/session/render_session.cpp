@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 
 #include "base/log.h"
+#include "hosted/host_rays.h"
+#include "render/setting_names.h"
 #include "scene/clipping.h"
 #include "scene/view_extent.h"
 #include "scene/world_position.h"
@@ -88,6 +90,15 @@ std::unique_ptr<Renderer> RenderSession::makeRenderer(const PreparedScene& prepa
                                       std::move(earlier), source_);
 }
 
+// Shaders that trace rays otherwise than the host does keep it from tracing.
+void RenderSession::sayWhatTraces(const Renderer& renderer) const {
+    const Schedule asked = plan_.settings.work.schedule;
+    const bool mayBeHosted = asked == Schedule::hosted || asked == Schedule::automatic;
+    if (mayBeHosted && device_->description().sharesMemory && !tracesAsHost(source_))
+        spdlog::info("changed shaders trace rays: the schedule is {}",
+                     nameOf(renderer.settings().work.schedule));
+}
+
 RenderJob RenderSession::prepare(const ImportOptions& moment, const Outputs& outputs) {
     RenderJob job;
     PreparedScene prepared = load(moment);
@@ -99,6 +110,8 @@ RenderJob RenderSession::prepare(const ImportOptions& moment, const Outputs& out
     job.device = device_;
     job.watch.lap("device");
     job.renderer = makeRenderer(prepared);
+    sayWhatTraces(*job.renderer);
+    job.camera = prepared.camera;
     if (!outputs.png.empty() && !toneMapper_)
         toneMapper_.emplace(*device_, source_);
     job.scene = std::move(prepared.scene);
@@ -111,7 +124,12 @@ void RenderSession::reload(RenderJob& job) {
     std::optional<ToneMapper> toneMapper;
     if (toneMapper_)
         toneMapper.emplace(*device_, source_);
-    job.renderer->reloadKernels(source_);
+    if (job.renderer->keepsAccelerator(plan_.settings, source_)) {
+        job.renderer->reloadKernels(source_);
+    } else {
+        job.renderer = std::make_unique<Renderer>(*device_, job.scene, job.camera, plan_.settings, source_);
+        sayWhatTraces(*job.renderer);
+    }
     toneMapper_ = std::move(toneMapper);
     job.watch.lap("prepare");
 }

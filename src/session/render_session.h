@@ -72,6 +72,7 @@ class RenderSession {
   private:
     [[nodiscard]] PreparedScene load(const ImportOptions& moment);
     [[nodiscard]] std::unique_ptr<Renderer> makeRenderer(const PreparedScene& prepared);
+    void sayWhatTraces(const Renderer& renderer) const;
 
     RenderPlan plan_;
     KernelSource source_ = embeddedKernel;

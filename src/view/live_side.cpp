@@ -45,7 +45,10 @@ RenderSettings LiveSide::filmSettings(const LiveRequest& request) const {
 
 void LiveSide::show(const LiveRequest& request) {
     const bool hasOtherShaders = request_ && request_->shaders != request.shaders;
-    const Restart restart = renderer_ ? restartsImage(*request_, request) : Restart::scene;
+    Restart restart = renderer_ ? restartsImage(*request_, request) : Restart::scene;
+    if (restart == Restart::image &&
+        !renderer_->keepsAccelerator(request.settings, sourceOf(request.shaders)))
+        restart = Restart::scene;
     if (restart == Restart::image) {
         restartImage(request);
     } else if (restart == Restart::scene) {

@@ -14,6 +14,7 @@
 #include "image/environment_file.h"
 #include "render/phase.h"
 #include "render/renderer.h"
+#include "render/schedule_choice.h"
 #include "session/lit_scene.h"
 #include "view/controls.h"
 #include "view/inspector_panel.h"
@@ -56,9 +57,9 @@ Viewer::Viewer(ViewerConfig config)
     : view_(std::move(config.view)), window_(makeWindow(view_)), presenter_(window_, config.device.validate),
       render_(config.device, &Window::wake), loader_(loadOrder, &Window::wake),
       shaders_(std::move(config.shaders)) {
-    view_.settings = resolveSchedule(view_.settings, render_.device().isCpu);
+    view_.settings = resolveSchedule(view_.settings, render_.device(), sourceOf(shaders_));
     if (!config.watched.empty())
-        watcher_.emplace(config.watched, shaders_, kernelNames(view_.settings), &Window::wake);
+        watcher_.emplace(config.watched, shaders_, decisiveKernels(view_.settings), &Window::wake);
     ImGui::GetIO().FontGlobalScale = window_.textScale() / window_.pixelsPerPoint().y;
 }
 
@@ -281,7 +282,7 @@ void Viewer::send() {
     if (inspection_ && (!sent_ || restartsImage(*sent_, request) != Restart::nothing))
         inspection_.reset(); // it was of another image
     if (watcher_)
-        watcher_->use(kernelNames(request.settings));
+        watcher_->use(decisiveKernels(request.settings));
     sent_ = request;
     isReady_ = false;
     render_.show(request);

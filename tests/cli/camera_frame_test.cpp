@@ -170,7 +170,7 @@ TEST_F(CameraFrame, DistancesToPlanesAreAlongTheDirectionOfView) {
         (void)render("s.glb", arguments);
     };
     for (const Words& more : {Words{"--schedule", "fused"}, Words{"--schedule", "wavefront"},
-                              Words{"--aperture", "0.001", "--focus", "2"}}) {
+                              Words{"--schedule", "auto"}, Words{"--aperture", "0.001", "--focus", "2"}}) {
         SCOPED_TRACE(more[1]);
         renderBetween(1.99, 2.01, more);
         EXPECT_EQ(tilesSeen(), 4u);

@@ -156,7 +156,7 @@ class CheckpointRefusal : public CheckpointTest {
 TEST_F(CheckpointRefusal, OfAnotherRender) {
     expectOther({"--seed", "3"}, "--seed (0 in the checkpoint, 3 in this render)");
     expectOther({"--mis", "balance"}, "--mis (power in the checkpoint, balance in this render)");
-    expectOther({"--schedule", "wavefront"}, "--schedule (fused in the checkpoint");
+    expectOther({"--schedule", "wavefront"}, "--schedule (hosted in the checkpoint");
     expectOther({"cornell-glass"}, "scene (cornell-box in the checkpoint, cornell-glass in this render)");
     expectOther({"--fov", "20"}, "--fov (none in the checkpoint, 20 in this render)");
     expectOther({}, "it is of samples 0:4, this render of 1:5", "1:5");

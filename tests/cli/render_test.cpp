@@ -190,8 +190,15 @@ TEST_F(Render, ScheduleIsChosenByNameOrByTheKindOfDevice) {
     expectEqualPixels(image("fused.exr"), image("wavefront.exr"));
     const json chosen = rendered("auto");
     const bool isCpu = chosen.at("device").at("type") == "CPU";
-    EXPECT_EQ(chosen.at("settings").at("schedule"), isCpu ? "fused" : "wavefront");
-    EXPECT_EQ(header("auto.exr").at("option:schedule"), isCpu ? "fused" : "wavefront");
+    EXPECT_EQ(chosen.at("settings").at("schedule"), isCpu ? "hosted" : "wavefront");
+    EXPECT_EQ(header("auto.exr").at("option:schedule"), isCpu ? "hosted" : "wavefront");
+    if (!isCpu)
+        return;
+    for (const char* kernel : {"hosted/camera", "hosted/scatter", "accumulate"})
+        EXPECT_GT(chosen.at("kernels").at(kernel).at("dispatches"), 0) << kernel;
+    for (const char* kind : {"camera", "indirect", "shadow"}) // a path may pass an edge within rounding
+        EXPECT_NEAR(chosen.at("rays").at(kind).get<double>(), wavefront.at("rays").at(kind).get<double>(), 20)
+            << kind;
 }
 
 TEST_F(Render, WaveSizeBandsAndThreadsChangeNoBit) {

@@ -111,7 +111,24 @@ TEST_F(Shaders, EverySaveRendersAgainUnlessItIsBroken) {
 
     const ProgramResult result = program.interrupt();
     EXPECT_EQ(result.exitCode, 130);
-    EXPECT_NE(result.err.find("changed: path"), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find("changed: hosted/scatter, hosted/escape"), std::string::npos) << result.err;
+}
+
+// The host traces with code of its own, which does not know of the change.
+TEST_F(Shaders, RaysThatAreTracedOtherwiseAreTracedByKernels) {
+    const std::string path = "lib/math/ray_triangle.glsl";
+    ASSERT_EQ(run({"new-experiment", "mine", path}).exitCode, 0);
+    std::string text = readFile(folder_ / "mine" / path);
+    const std::string condition = "determinant != 0.0 && hit.t > 0.0";
+    ASSERT_NE(text.find(condition), std::string::npos);
+    text.replace(text.find(condition), condition.size(), "determinant != 0.0 && hit.t > 1e30");
+    std::ofstream(folder_ / "mine" / path) << text;
+    const ProgramResult result = run(renderInto("mine.exr", {"--shaders", "mine"}));
+    EXPECT_EQ(result.exitCode, 0) << result.err;
+    EXPECT_NE(result.err.find("changed shaders trace rays: the schedule is fused"), std::string::npos)
+        << result.err;
+    for (const glm::vec3& pixel : pixels("mine.exr"))
+        ASSERT_EQ(pixel, glm::vec3(0.0f)) << "no triangle is met";
 }
 
 TEST_F(Shaders, ASavedToneCurveMakesThePictureAnew) {
@@ -149,7 +166,7 @@ TEST_F(Shaders, ARenderUnderWayIsEndedByOtherKernelsAlone) {
     EXPECT_EQ(header("mine.exr", "option:shaders"), "");
 
     experiment("kMaxSurvival = ;", "kMaxSurvival = 0.3");
-    ASSERT_TRUE(program.waitForText("changed: path")) << program.interrupt().err;
+    ASSERT_TRUE(program.waitForText("changed: hosted/scatter, hosted/escape")) << program.interrupt().err;
     experiment("kMaxSurvival = 0.3", "kMaxSurvival = 0.2");
     ASSERT_TRUE(program.waitForText("compiled in", 2)) << "the render with 0.3 did not end";
     ASSERT_TRUE(program.waitForText("samples per pixel", 2));

@@ -55,7 +55,9 @@ class FilmTest : public DeviceTest {
         resources.set("Film", film.bands().front().sums);
         resources.set("Tallies", film.tallies());
         const gpu::BoundKernel bound(device(), kernel, resources);
-        const WaveRange range{0, kPixels, 0, together, 0, 0, 0, 0, 0};
+        WaveRange range{};
+        range.pixelCount = kPixels;
+        range.sampleCount = together;
         gpu::Commands commands(device());
         for (const std::vector<Path>& wave : waves) {
             paths.upload(std::span<const Path>(wave));

@@ -141,6 +141,30 @@ TEST_F(TraverseTest, ShadowRaysEndWhereTheirDirectionEnds) {
         ASSERT_EQ(occluded, 1u);
 }
 
+// The host takes what Embree proposes, and decides by the test of the kernels: to the bit.
+TEST_F(TraverseTest, TheHostFindsWhatKernelsFind) {
+    const Lights lights = collectLights(dense().scene, glm::vec3(0.0f), LightSelection::power);
+    const GpuScene scene(device(), packScene(dense().scene, lights, AcceleratorKind::embree));
+    RayTracer host(device(), scene);
+    const auto differences = [](const std::vector<TracedHit>& a, const std::vector<TracedHit>& b) {
+        size_t count = 0;
+        for (size_t i = 0; i < a.size(); ++i)
+            count += a[i].t != b[i].t || !isSameSurface(a[i].surface, b[i].surface) ? 1 : 0;
+        return count;
+    };
+    constexpr size_t kAtEdges = 2; // of all rays: where the tests differ about the side of an edge
+    const std::vector<Ray> bounces = makeBounceRays(dense().points, 2);
+    EXPECT_LE(differences(host.closest(dense().cameraRays), dense().cameraHits), kAtEdges);
+    EXPECT_LE(differences(host.closest(bounces), dense().tracer.closest(bounces)), kAtEdges);
+    const std::vector<ShadowRay> rays = makeShadowRays(dense().points, dense().scene, dense().triangles, 3);
+    const std::vector<uint32_t> byHost = host.occluded(rays);
+    const std::vector<uint32_t> byKernels = dense().tracer.occluded(rays);
+    size_t different = 0;
+    for (size_t i = 0; i < rays.size(); ++i)
+        different += byHost[i] != byKernels[i] ? 1 : 0;
+    EXPECT_LE(different, kAtEdges);
+}
+
 TEST_F(TraverseTest, ATriangleIsSkippedByItsId) {
     std::vector<Ray> rays = dense().cameraRays;
     for (size_t i = 0; i < rays.size(); ++i)

@@ -1,5 +1,5 @@
-// Rays aimed exactly at the edges and vertices of closed meshes never leak, at any scale and far from the
-// origin.
+// Rays aimed exactly at the edges and vertices of closed meshes never leak from the BVH, at any scale and far
+// from the origin, and those aimed at edges not from Embree's trees either.
 #include <functional>
 #include <string>
 #include <vector>
@@ -21,10 +21,16 @@ struct Shape {
     ClosedMesh mesh;
 };
 
-// All vertices, and four points of every edge, in double: where floats cannot name the point, the ray is
-// still aimed at it.
-std::vector<glm::dvec3> verticesAndEdgePoints(const ClosedMesh& mesh) {
-    std::vector<glm::dvec3> points(mesh.positions.begin(), mesh.positions.end());
+// In double: where floats cannot name a point, the ray is still aimed at it.
+using Targets = std::vector<glm::dvec3>;
+
+Targets verticesOf(const ClosedMesh& mesh) {
+    return {mesh.positions.begin(), mesh.positions.end()};
+}
+
+// Four points of every edge.
+Targets edgePointsOf(const ClosedMesh& mesh) {
+    Targets points;
     for (const glm::uvec3& t : mesh.triangles)
         for (glm::length_t i = 0; i < 3; ++i) {
             const glm::dvec3 a(mesh.positions[t[i]]);
@@ -39,11 +45,17 @@ Ray rayTowards(const glm::vec3& origin, const glm::dvec3& target) {
     return freeRay(origin, glm::vec3(glm::normalize(target - glm::dvec3(origin))));
 }
 
+// Embree's robust mode computes each edge with one sign for both of its triangles, but that sign may be wrong
+// where a ray passes a vertex within rounding: of the vertices that rays are aimed at exactly, up to one in
+// 80 lets a ray through.
+constexpr size_t kOneInLeaks = 25;
+
 class WatertightTest : public DeviceTest {
   protected:
-    // Calls check(mesh, placement, tracer) for every shape at every placement.
-    using Check = std::function<void(const ClosedMesh&, const Placement&, RayTracer&)>;
-    void forEachPlacedShape(const Check& check) {
+    // Fires at every shape at every placement, by each accelerator. `leaks`: how many of the rays leak that
+    // it sends to the targets.
+    using Leaks = std::function<size_t(const Targets&, const Placement&, RayTracer&)>;
+    void expectTight(const Leaks& leaks) {
         const Shape shapes[] = {{"cube", makeCube()},
                                 {"gridded cube", makeGriddedCube(16)},
                                 {"icosphere", makeIcosphere(3)},
@@ -52,15 +64,24 @@ class WatertightTest : public DeviceTest {
             for (const Placement& placement : kPlacements) {
                 SCOPED_TRACE(std::string(shape.name) + " " + placement.name());
                 const ClosedMesh mesh = placed(shape.mesh, placement);
-                const GpuScene scene(device(), packScene(sceneOf(mesh)));
-                RayTracer tracer(device(), scene);
-                check(mesh, placement, tracer);
+                const Targets vertices = verticesOf(mesh);
+                const Targets edgePoints = edgePointsOf(mesh);
+                const Scene scene = sceneOf(mesh);
+                const Lights lights = collectLights(scene, glm::vec3(0.0f), LightSelection::power);
+                const GpuScene byKernels(device(), packScene(scene, lights, AcceleratorKind::bvh8));
+                RayTracer kernels(device(), byKernels);
+                EXPECT_EQ(leaks(vertices, placement, kernels), 0u) << "rays at vertices";
+                EXPECT_EQ(leaks(edgePoints, placement, kernels), 0u) << "rays at edges";
+                const GpuScene byHost(device(), packScene(scene, lights, AcceleratorKind::embree));
+                RayTracer host(device(), byHost);
+                EXPECT_EQ(leaks(edgePoints, placement, host), 0u) << "rays at edges, by Embree";
+                EXPECT_LE(leaks(vertices, placement, host), vertices.size() / kOneInLeaks) << "by Embree";
             }
     }
 };
 
 TEST_F(WatertightTest, NoRayFromInsideEscapesThroughAnEdgeOrVertex) {
-    forEachPlacedShape([](const ClosedMesh& mesh, const Placement& placement, RayTracer& tracer) {
+    expectTight([](const Targets& targets, const Placement& placement, RayTracer& tracer) {
         Random random(1);
         std::vector<glm::vec3> origins = {placement.centre()};
         while (origins.size() < 8)
@@ -68,21 +89,21 @@ TEST_F(WatertightTest, NoRayFromInsideEscapesThroughAnEdgeOrVertex) {
                               0.4f * placement.scale * random.unit() * random.direction());
         std::vector<Ray> rays;
         for (const glm::vec3& origin : origins)
-            for (const glm::dvec3& target : verticesAndEdgePoints(mesh))
+            for (const glm::dvec3& target : targets)
                 rays.push_back(rayTowards(origin, target));
         size_t leaks = 0;
         for (const TracedHit& hit : tracer.closest(rays))
             leaks += isSurface(hit.surface) ? 0 : 1;
-        EXPECT_EQ(leaks, 0u) << "of " << rays.size() << " rays";
+        return leaks;
     });
 }
 
 // Along the radius, so that the target is the first thing to be hit.
 TEST_F(WatertightTest, NoRayFromOutsideEntersThroughAnEdgeOrVertex) {
-    forEachPlacedShape([](const ClosedMesh& mesh, const Placement& placement, RayTracer& tracer) {
+    expectTight([](const Targets& targets, const Placement& placement, RayTracer& tracer) {
         std::vector<Ray> rays;
         std::vector<float> distances;
-        for (const glm::dvec3& target : verticesAndEdgePoints(mesh))
+        for (const glm::dvec3& target : targets)
             for (const double factor : {1.5, 3.0, 100.0}) {
                 const glm::dvec3 origin =
                     glm::dvec3(placement.centre()) + factor * (target - glm::dvec3(placement.centre()));
@@ -95,15 +116,15 @@ TEST_F(WatertightTest, NoRayFromOutsideEntersThroughAnEdgeOrVertex) {
         for (size_t i = 0; i < rays.size();
              ++i) // through the near wall means at least as far as the inside is wide
             leaks += hits[i].t > distances[i] + 0.5f * placement.scale ? 1 : 0;
-        EXPECT_EQ(leaks, 0u) << "of " << rays.size() << " rays";
+        return leaks;
     });
 }
 
 TEST_F(WatertightTest, ShadowRaysFromInsideAreBlockedByEdgesAndVertices) {
-    forEachPlacedShape([](const ClosedMesh& mesh, const Placement& placement, RayTracer& tracer) {
+    expectTight([](const Targets& targets, const Placement& placement, RayTracer& tracer) {
         Random random(2);
         std::vector<ShadowRay> rays;
-        for (const glm::dvec3& target : verticesAndEdgePoints(mesh)) {
+        for (const glm::dvec3& target : targets) {
             const glm::vec3 origin =
                 placement.centre() + 0.4f * placement.scale * random.unit() * random.direction();
             const glm::vec3 beyond(2.0 * (target - glm::dvec3(origin)));
@@ -112,7 +133,7 @@ TEST_F(WatertightTest, ShadowRaysFromInsideAreBlockedByEdgesAndVertices) {
         size_t leaks = 0;
         for (const uint32_t occluded : tracer.occluded(rays))
             leaks += occluded == 0 ? 1 : 0;
-        EXPECT_EQ(leaks, 0u) << "of " << rays.size() << " rays";
+        return leaks;
     });
 }
 

@@ -77,7 +77,7 @@ void expectEqual(const RawFilm& a, const RawFilm& b) {
 
 TEST_F(Continuation, FilmsOfRangesAddUpToTheWhole) {
     for (const Sampler sampler : {Sampler::sobol, Sampler::independent})
-        for (const Schedule schedule : {Schedule::fused, Schedule::wavefront}) {
+        for (const Schedule schedule : schedulesOf(device())) {
             RenderSettings settings = baseSettings();
             settings.estimator.sampler = sampler;
             settings.work.schedule = schedule;
@@ -98,7 +98,7 @@ TEST_F(Continuation, FilmsOfRangesAddUpToTheWhole) {
 }
 
 TEST_F(Continuation, StartsAtAnyWaveOfAnyBand) {
-    for (const Schedule schedule : {Schedule::fused, Schedule::wavefront}) {
+    for (const Schedule schedule : schedulesOf(device())) {
         RenderSettings settings = baseSettings();
         settings.work.schedule = schedule;
         const RawFilm whole = filmOf(settings);

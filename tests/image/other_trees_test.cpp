@@ -11,6 +11,7 @@
 #include "device_scene/scene_features.h"
 #include "render/film.h"
 #include "render/renderer.h"
+#include "render/schedule_choice.h"
 #include "support/patched_kernel.h"
 #include "support/render_scene.h"
 #include "support/scene_builder.h"
@@ -74,11 +75,10 @@ class OtherTrees : public DeviceTest {
     void prepare(Schedule schedule, const KernelSource& source = embeddedKernel) {
         settings_ = imageSettings(kSize, kSize, 16);
         settings_.work.schedule = schedule;
-        settings_ = resolveSchedule(settings_, true);
+        settings_ = resolveSchedule(settings_, device().description());
         settings_.work.waveSize = kSize * kSize * settings_.stop.samples;
-        const SceneFeatures features =
-            sceneFeatures(scene_, lights_) | cameraFeatures(scene_.cameras.front());
-        kernels_.emplace(device(), kernelNames(settings_), settings_.estimator, features, source);
+        kernels_.emplace(device(), kernelVariants(phasesOf(settings_), schedule, classes_),
+                         settings_.estimator, features_, source);
     }
     [[nodiscard]] std::vector<uint32_t> filmWith(const Bvh& tree) {
         SceneData data = packScene(scene_, lights_);
@@ -90,9 +90,12 @@ class OtherTrees : public DeviceTest {
         film.clear();
         const auto kernel = [&](std::string_view name) -> const gpu::Kernel& { return (*kernels_)[name]; };
         const std::vector<Phase> phases = phasesOf(settings_);
+        WaveRange range{};
+        range.pixelCount = kSize * kSize;
+        range.sampleCount = settings_.stop.samples;
         makeWaveRenderer(device(), {phases, settings_.work.schedule, gpuScene, gpuScene.albedoTable().buffer,
-                                    film, frame, kernel})
-            ->renderWave(kPathTransport, 0, {0, kSize * kSize, 0, settings_.stop.samples, 0, 0, 0, 0, 0});
+                                    film, frame, kernel, classes_, features_})
+            ->renderWave(kPathTransport, 0, range);
         return film.bands().front().sums.downloadAll<uint32_t>();
     }
 
@@ -101,6 +104,8 @@ class OtherTrees : public DeviceTest {
     const std::vector<Triangle> triangles_ = sceneTriangles(scene_);
 
   private:
+    const MaterialClasses classes_ = materialClasses(scene_);
+    const SceneFeatures features_ = sceneFeatures(scene_, lights_) | cameraFeatures(scene_.cameras.front());
     RenderSettings settings_;
     std::optional<EstimatorKernels> kernels_;
 };
@@ -114,6 +119,17 @@ TEST_F(OtherTrees, GiveTheSameFilm) {
         EXPECT_EQ(filmWith(withLeavesReversed(embree)), film);
         EXPECT_EQ(filmWith(buildBvh(triangles_, {.triangleCost = 1.0f, .splitBudget = 2.0f})), film);
     }
+}
+
+// The host finds the same triangles by Embree.
+TEST_F(OtherTrees, EmbreesAmongThemGiveTheSamePicture) {
+    if (!device().description().sharesMemory)
+        GTEST_SKIP() << "the host does not reach the device's memory";
+    RenderSettings settings = imageSettings(kSize, kSize, 16);
+    settings.work.schedule = Schedule::fused;
+    const Rendering kernels = renderScene(device(), scene_, settings).rendering;
+    settings.work.schedule = Schedule::hosted;
+    EXPECT_LE(shareThatDiffers(kernels, renderScene(device(), scene_, settings).rendering), 0.01);
 }
 
 // By the rule for triangles at equal distance, and not because there are none.

@@ -9,6 +9,7 @@
 #include "gpu/commands.h"
 #include "render/film.h"
 #include "render/renderer.h"
+#include "render/schedule_choice.h"
 #include "session/builtin.h"
 #include "support/render_scene.h"
 #include "support/test_device.h"
@@ -23,7 +24,7 @@ class Phases : public DeviceTest {
     void use(Schedule schedule) {
         settings_ = imageSettings(kSize, kSize, 16);
         settings_.work.schedule = schedule;
-        settings_ = resolveSchedule(settings_, true);
+        settings_ = resolveSchedule(settings_, device().description());
         settings_.work.waveSize = 2048;
     }
     // Words of the film that these phases make.
@@ -32,15 +33,19 @@ class Phases : public DeviceTest {
         const Lights lights = collectLights(scene_, scene_.environment, LightSelection::power);
         const SceneFeatures features = sceneFeatures(scene_, lights) | cameraFeatures(camera);
         const Schedule schedule = settings_.work.schedule;
-        const EstimatorKernels kernels(device(), kernelNames(phases, schedule), settings_.estimator, features,
-                                       embeddedKernel);
-        const GpuScene gpuScene(device(), packScene(scene_, lights));
+        const MaterialClasses classes = materialClasses(scene_);
+        const EstimatorKernels kernels(device(), kernelVariants(phases, schedule, classes),
+                                       settings_.estimator, features, embeddedKernel);
+        const AcceleratorKind accelerator =
+            schedule == Schedule::hosted ? AcceleratorKind::embree : AcceleratorKind::bvh8;
+        const GpuScene gpuScene(device(), packScene(scene_, lights, accelerator));
         FrameParameters frame = makeFrame(scene_, camera, settings_);
         setLights(frame, lights);
         const Film film(device(), kSize, kSize, 0);
         const auto kernel = [&](std::string_view name) -> const gpu::Kernel& { return kernels[name]; };
-        const auto waves = makeWaveRenderer(
-            device(), {phases, schedule, gpuScene, gpuScene.albedoTable().buffer, film, frame, kernel});
+        const auto waves =
+            makeWaveRenderer(device(), {phases, schedule, gpuScene, gpuScene.albedoTable().buffer, film,
+                                        frame, kernel, classes, features});
         WaveWalk walk(phases, {.bandPixels = {kSize * kSize}, .waveSize = settings_.work.waveSize});
         while (!walk.isDone()) {
             const Wave wave = walk.next(settings_.work.waveSize);
@@ -61,7 +66,7 @@ TEST_F(Phases, EachTakeTheirSamplesByTheirTransport) {
     const std::vector<KernelStep> twice{{"generate", Over::slots}, {"extend", Over::rays}};
     Transport other = kPathTransport;
     other.start = twice;
-    for (const Schedule schedule : {Schedule::fused, Schedule::wavefront}) {
+    for (const Schedule schedule : schedulesOf(device())) {
         use(schedule);
         const std::vector<uint32_t> whole = filmOf({{&kPathTransport, 0, 16}});
         EXPECT_EQ(filmOf({{&kPathTransport, 0, 5}, {&other, 5, 11}}), whole);
@@ -88,6 +93,9 @@ TEST_F(Phases, ShareKernels) {
     EXPECT_EQ(
         kernelNames(phases, Schedule::wavefront),
         (std::vector<std::string_view>{"generate", "extend", "shade", "prepare", "connect", "accumulate"}));
+    EXPECT_EQ(
+        kernelNames(phases, Schedule::hosted),
+        (std::vector<std::string_view>{"hosted/camera", "hosted/scatter", "hosted/escape", "accumulate"}));
 }
 
 } // namespace

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "render/setting_names.h"
 #include "session/ledger.h"
 #include "support/media_scenes.h"
 
@@ -149,7 +150,7 @@ TEST_F(SolidBoundaries, TheListAtTheCameraFollowsWhereEachRayStarts) {
                                 .add(floor, unlit(glm::vec3(1.0f)))
                                 .camera(wide)
                                 .build();
-        for (const Schedule schedule : {Schedule::fused, Schedule::wavefront}) {
+        for (const Schedule schedule : schedulesOf(device())) {
             const Rendering image = render(scene, 4, 16, schedule).rendering;
             for (uint32_t x = 0; x < 16; ++x)
                 for (uint32_t y = 0; y < 16; ++y)
@@ -183,7 +184,8 @@ TEST_F(SolidBoundaries, OfMoreSolidsThanAListHoldsAreCountedAndNamed) {
         builder.add(cube({0, 0, 0}, 0.2f * static_cast<float>(i)), glassOf(1.0f, glm::vec3(0.9f)));
     const Scene scene = builder.environment(glm::vec3(1.0f)).camera(down(3.0f)).build();
     const RenderResult fused = render(scene);
-    EXPECT_EQ(fused.tallies.crowdedPaths, 16u * 16u * 4u);
+    for (const Schedule schedule : schedulesOf(device()))
+        EXPECT_EQ(render(scene, 4, 16, schedule).tallies.crowdedPaths, 16u * 16u * 4u) << nameOf(schedule);
     EXPECT_NE(crowdedText(scene, fused.tallies).find("\"mesh 5\""), std::string::npos)
         << crowdedText(scene, fused.tallies);
     const RenderResult wavefront = render(scene, 4, 16, Schedule::wavefront);

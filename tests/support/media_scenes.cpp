@@ -77,8 +77,8 @@ RenderResult MediaTest::render(const Scene& scene, uint32_t samples, uint32_t si
 }
 
 void MediaTest::expectEverywhere(const Scene& scene, const glm::dvec3& expected) {
-    expectEveryPixel(render(scene), expected);
-    expectEveryPixel(render(scene, 4, 16, Schedule::wavefront), expected);
+    for (const Schedule schedule : schedulesOf(device()))
+        expectEveryPixel(render(scene, 4, 16, schedule), expected);
 }
 
 } // namespace lavalight::test

@@ -45,6 +45,22 @@ RenderResult resultOf(Renderer& renderer) {
 
 } // namespace
 
+std::vector<Schedule> schedulesOf(const gpu::Device& device) {
+    std::vector<Schedule> schedules{Schedule::fused, Schedule::wavefront};
+    if (device.description().sharesMemory)
+        schedules.push_back(Schedule::hosted);
+    return schedules;
+}
+
+double shareThatDiffers(const Rendering& a, const Rendering& b) {
+    const std::vector<glm::vec3>& pixels = a.radiance().pixels;
+    size_t different = 0;
+    for (size_t i = 0; i < pixels.size(); ++i)
+        different +=
+            glm::distance(pixels[i], b.radiance().pixels[i]) > 1e-5f * glm::length(pixels[i]) ? 1 : 0;
+    return static_cast<double>(different) / static_cast<double>(pixels.size());
+}
+
 RenderSettings imageSettings(uint32_t width, uint32_t height, uint32_t samples) {
     RenderSettings settings;
     settings.image.width = width;

@@ -23,6 +23,9 @@ struct RenderResult {
         filmWords; // the exact film: the layout's words a pixel, pixels row by row from the top
 };
 
+// The schedules that the device can have.
+[[nodiscard]] std::vector<Schedule> schedulesOf(const gpu::Device& device);
+
 [[nodiscard]] RenderSettings imageSettings(uint32_t width, uint32_t height, uint32_t samples);
 
 // All samples of the settings, seen from the scene's first camera. The driver compiles for a second or more,
@@ -33,6 +36,9 @@ struct RenderResult {
 // The render with other kernels than those that the build embedded.
 [[nodiscard]] RenderResult renderScene(gpu::Device& device, const Scene& scene,
                                        const RenderSettings& settings, const KernelSource& kernels);
+
+// Share of the pixels that differ by more than the rounding of kernels of another shape.
+[[nodiscard]] double shareThatDiffers(const Rendering& a, const Rendering& b);
 
 // Words of the film that both films' samples together would have left behind.
 [[nodiscard]] std::vector<uint32_t> sumOfFilms(const std::vector<uint32_t>& a,

@@ -131,7 +131,7 @@ TEST_F(View, SettingsOfThePanelRestartTheImage) {
     expectShown(rendered({"cornell-box"}, size));
     key("Tab");
     std::this_thread::sleep_for(std::chrono::milliseconds(300));
-    desktop_.input("mousemove --window " + window_ + " 30 319 sleep 0.2 click 1"); // next-event estimation
+    desktop_.input("mousemove --window " + window_ + " 30 460 sleep 0.2 click 1"); // next-event estimation
     key("Tab");
     expectShown(rendered({"cornell-box", "--nee", "off"}, size));
     quit();
@@ -233,10 +233,10 @@ TEST_F(View, CompilesShadersAtEverySaveAndGoesOnWhereTheyAreBroken) {
     save(";");
     ASSERT_TRUE(program_->waitForText("mine/lib/sampling/roulette.glsl:6"));
     save("0.2");
-    ASSERT_TRUE(program_->waitForText("changed: path"));
+    ASSERT_TRUE(program_->waitForText("changed: hosted/escape, hosted/scatter"));
     waitFor(kDone);
     save("0.95");
-    ASSERT_TRUE(program_->waitForText("changed: path", 2));
+    ASSERT_TRUE(program_->waitForText("changed: hosted/escape, hosted/scatter", 2));
     quit();
 }
 

@@ -78,7 +78,7 @@ void RenderOptions::declareEstimator(CLI::App& parser) {
 void RenderOptions::declareDevice(CLI::App& parser) {
     device_.emplace(parser);
     addNamed(parser, "--schedule", settings_.work.schedule,
-             "One kernel for whole paths, or one for each step; auto: by device");
+             "One kernel for whole paths, one for each step, or rays traced by the host; auto: by device");
     // The earlier name of --schedule, left out of the help.
     addNamed(parser, "--kernels", settings_.work.schedule, "");
     parser.get_option("--kernels")->group("");

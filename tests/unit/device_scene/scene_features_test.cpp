@@ -214,9 +214,10 @@ TEST(SceneFeatures, LightsAndNormalsAreNamed) {
     scene.meshes = {mesh};
     EXPECT_EQ(featuresOf(scene), 0u);
     scene.materials.front().emission = glm::vec3(1.0f);
-    EXPECT_EQ(featuresOf(scene), kFeatureTriangleLights | kFeatureLights);
+    EXPECT_EQ(featuresOf(scene), kFeatureTriangleLights | kFeatureLights | kFeatureEmission);
     scene.meshes.front().normals.assign(3, {0, 0, 1});
-    EXPECT_EQ(featuresOf(scene), kFeatureTriangleLights | kFeatureLights | kFeatureShadingNormals);
+    EXPECT_EQ(featuresOf(scene),
+              kFeatureTriangleLights | kFeatureLights | kFeatureEmission | kFeatureShadingNormals);
 }
 
 TEST(SceneFeatures, EachKindOfCameraIsOne) {

@@ -1,0 +1,253 @@
+#include "hosted/host_rays.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <span>
+
+#define GLM_ENABLE_EXPERIMENTAL
+#include <glm/gtc/packing.hpp>
+#include <glm/gtx/vec_swizzle.hpp>
+
+#include "shared/scene.h"
+#include "shared/texture.h"
+#include "shared/trace.h"
+
+namespace lavalight {
+namespace glsl {
+
+using namespace glm;
+
+struct TexelBuffer {
+    const uvec4* texels = nullptr;
+};
+
+inline uvec4 texelFetch(TexelBuffer buffer, int index) {
+    return buffer.texels[index];
+}
+
+// The shaders' functions, constants and buffers as members. GLSL is written to other rules than those that
+// C++ compilers warn about.
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wparentheses"
+#pragma GCC diagnostic ignored "-Wshadow"
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+struct ShaderRays {
+    SceneFeatures features = 0;
+    [[nodiscard]] bool has(SceneFeatures feature) const { return (features & feature) != 0; }
+
+    RTCScene embree = nullptr;
+
+#include "shader_rays_members.h"
+};
+
+namespace {
+
+// A ray on its way through Embree, which asks about every triangle that it finds. Embree proposes; the test
+// of the kernels decides where a triangle is met, and which comes first. So the host finds what kernels find,
+// but where a ray meets an edge so exactly that the two tests differ about its side.
+struct Query {
+#if RTC_VERSION_MAJOR >= 4
+    RTCRayQueryContext context;
+#else
+    RTCIntersectContext context;
+#endif
+    ShaderRays* shader;
+    const ShaderRays::RayFilter* ignored;
+    ShaderRays::ShearedRay ray;
+    Hit nearest;       // the nearest so far; at first at tMax
+    SurfaceId surface; // its surface; none precedes the first: what is met at tMax does not count
+
+    // Takes the triangle for the nearest; false: it is not, or lets the ray through.
+    [[nodiscard]] bool accepts(const RTCFilterFunctionNArguments& asked) {
+        const SurfaceId met{RTCHitN_primID(asked.hit, 1, 0)};
+        if (isSameSurface(met, ignored->firstSurface) || isSameSurface(met, ignored->secondSurface))
+            return false;
+        const TriangleRecord triangle = shader->loadTriangle(met.primitive);
+        const ShaderRays::TriangleHit at = whereMet(asked, triangle);
+        if (!(at.t > 0.0f) || !shader->comesFirst(at.t, met, nearest.t, surface) || letsThrough(triangle, at))
+            return false;
+        nearest = {at.t, met.primitive, at.barycentrics};
+        surface = met;
+        return true;
+    }
+
+  private:
+    [[nodiscard]] ShaderRays::TriangleHit whereMet(const RTCFilterFunctionNArguments& asked,
+                                                   const TriangleRecord& triangle) const {
+        ShaderRays::TriangleHit at;
+        (void)shader->intersectTriangle(ray, triangle.v0, triangle.v1, triangle.v2, at);
+        if (std::isfinite(at.t)) // also just beyond an edge, where only Embree finds the triangle hit
+            return at;
+        at.t = RTCRayN_tfar(asked.ray, 1, 0);
+        at.barycentrics = vec2(RTCHitN_u(asked.hit, 1, 0), RTCHitN_v(asked.hit, 1, 0));
+        const vec3 ng(RTCHitN_Ng_x(asked.hit, 1, 0), RTCHitN_Ng_y(asked.hit, 1, 0),
+                      RTCHitN_Ng_z(asked.hit, 1, 0));
+        const vec3 direction(RTCRayN_dir_x(asked.ray, 1, 0), RTCRayN_dir_y(asked.ray, 1, 0),
+                             RTCRayN_dir_z(asked.ray, 1, 0));
+        at.front = dot(ng, direction) < 0.0f;
+        return at;
+    }
+
+    [[nodiscard]] bool letsThrough(const TriangleRecord& triangle, const ShaderRays::TriangleHit& at) const {
+        if (shader->passesThrough(*ignored, triangle, at.front))
+            return true;
+        const vec3 b(1.0f - at.barycentrics.x - at.barycentrics.y, at.barycentrics);
+        return shader->has(kFeatureAlpha) && (triangle.material & kAlphaBit) != 0u &&
+               shader->letsThrough(triangle, b, ignored->alphaSeed);
+    }
+};
+
+// Embree's distances differ from ours: by roundings, on slivers by up to 1e-4. What is a little beyond the
+// nearest may come before it.
+float withMargin(float t) {
+    return t * 1.0002f;
+}
+
+void filter(const RTCFilterFunctionNArguments* asked) {
+    if (asked->valid[0] != -1)
+        return;
+    Query& query = *reinterpret_cast<Query*>(asked->context);
+    if (query.accepts(*asked))
+        RTCRayN_tfar(asked->ray, 1, 0) = withMargin(query.nearest.t);
+    else
+        asked->valid[0] = 0;
+}
+
+RTCRay toEmbree(vec3 origin, vec3 direction, float tMax) {
+    RTCRay ray;
+    ray.org_x = origin.x;
+    ray.org_y = origin.y;
+    ray.org_z = origin.z;
+    ray.dir_x = direction.x;
+    ray.dir_y = direction.y;
+    ray.dir_z = direction.z;
+    ray.tnear = 0.0f;
+    ray.tfar = withMargin(tMax);
+    ray.time = 0.0f;
+    ray.mask = ~0u;
+    ray.id = 0;
+    ray.flags = 0;
+    return ray;
+}
+
+Query makeQuery(ShaderRays& shader, vec3 origin, vec3 direction, float tMax,
+                const ShaderRays::RayFilter& ignored) {
+    Query query{{}, &shader, &ignored, shader.shearRay(origin, direction), {tMax, 0, vec2(0.0f)}, {0}};
+#if RTC_VERSION_MAJOR >= 4
+    rtcInitRayQueryContext(&query.context);
+#else
+    rtcInitIntersectContext(&query.context);
+    query.context.filter = filter;
+#endif
+    return query;
+}
+
+#if RTC_VERSION_MAJOR >= 4
+void intersect(RTCScene scene, Query& query, RTCRayHit& ray) {
+    RTCIntersectArguments arguments;
+    rtcInitIntersectArguments(&arguments);
+    arguments.context = &query.context;
+    arguments.filter = filter;
+    arguments.flags = RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER;
+    rtcIntersect1(scene, &ray, &arguments);
+}
+
+void occlude(RTCScene scene, Query& query, RTCRay& ray) {
+    RTCOccludedArguments arguments;
+    rtcInitOccludedArguments(&arguments);
+    arguments.context = &query.context;
+    arguments.filter = filter;
+    arguments.flags = RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER;
+    rtcOccluded1(scene, &ray, &arguments);
+}
+#else
+void intersect(RTCScene scene, Query& query, RTCRayHit& ray) {
+    rtcIntersect1(scene, &query.context, &ray);
+}
+
+void occlude(RTCScene scene, Query& query, RTCRay& ray) {
+    rtcOccluded1(scene, &query.context, &ray);
+}
+#endif
+
+} // namespace
+
+bool ShaderRays::intersectClosest(vec3 origin, vec3 direction, float tMax, RayFilter ignored, Hit& hit) {
+    Query query = makeQuery(*this, origin, direction, tMax, ignored);
+    RTCRayHit ray;
+    ray.ray = toEmbree(origin, direction, tMax);
+    ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    intersect(embree, query, ray);
+    hit = query.nearest;
+    return ray.hit.geomID != RTC_INVALID_GEOMETRY_ID;
+}
+
+bool ShaderRays::intersectAny(vec3 origin, vec3 direction, float tMax, RayFilter ignored) {
+    Query query = makeQuery(*this, origin, direction, tMax, ignored);
+    RTCRay ray = toEmbree(origin, direction, tMax);
+    occlude(embree, query, ray);
+    return ray.tfar < 0.0f; // Embree's mark of an occluded ray
+}
+#pragma GCC diagnostic pop
+
+} // namespace glsl
+
+namespace {
+
+glsl::TexelBuffer texelsOf(const gpu::ResourceTable& scene, std::string_view name) {
+    const std::span<const glm::uvec4> texels = scene.get(name).mapped<const glm::uvec4>();
+    assert(texels.data() != nullptr);
+    return {texels.data()};
+}
+
+} // namespace
+
+HostScene hostScene(const GpuScene& scene, SceneFeatures features) {
+    assert(scene.accelerator().embree() != nullptr);
+    HostScene host{{}, scene.accelerator().embree(), features};
+    scene.addTo(host.buffers);
+    return host;
+}
+
+bool tracesAsHost(const KernelSource& source) {
+    return std::ranges::all_of(kTracingKernels, [&](std::string_view kernel) {
+        return source(kernel).content == embeddedKernel(kernel).content;
+    });
+}
+
+struct HostRays::Members {
+    glsl::ShaderRays shader;
+};
+
+HostRays::HostRays(const HostScene& scene, const FrameParameters& frame, const WaveRange& range)
+    : members_(std::make_unique<Members>()) {
+    glsl::ShaderRays& shader = members_->shader;
+    shader.features = scene.features;
+    shader.embree = scene.triangles->scene();
+    shader.frame = frame;
+    shader.range = range;
+    shader.triangles = texelsOf(scene.buffers, "triangles");
+    shader.triangleNormals = texelsOf(scene.buffers, "triangleNormals");
+    shader.materials = texelsOf(scene.buffers, "materials");
+    shader.pictures = texelsOf(scene.buffers, "pictures");
+    shader.textures = texelsOf(scene.buffers, "textures");
+    shader.triangleUvs = texelsOf(scene.buffers, "triangleUvs");
+    shader.triangleColors = texelsOf(scene.buffers, "triangleColors");
+}
+
+HostRays::~HostRays() = default;
+
+Hit HostRays::trace(uint32_t slot, uint32_t bounce, Ray& ray) {
+    return members_->shader.trace(slot, bounce, ray);
+}
+
+bool HostRays::isOccluded(const ShadowRay& ray, uint32_t slot, uint32_t bounce) {
+    return members_->shader.isOccluded(ray, slot, bounce);
+}
+
+uint32_t HostRays::materialOf(const Hit& hit) const {
+    return members_->shader.loadTriangle(hit.record).material & kMaterialMask;
+}
+
+} // namespace lavalight

@@ -1,0 +1,56 @@
+// Rays of paths traced by the host: the functions of shaders/scene/path_rays.glsl, compiled for the host,
+// with Embree in the place of the kernels' accelerator.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string_view>
+
+#include "accel/embree_triangles.h"
+#include "device_scene/gpu_scene.h"
+#include "gpu/kernel.h"
+#include "kernels/kernel_source.h"
+#include "shared/features.h"
+#include "shared/frame.h"
+#include "shared/wavefront.h"
+
+namespace lavalight {
+
+// A scene whose buffers the host reads where the device does: one that shares its memory.
+struct HostScene {
+    gpu::ResourceTable buffers;       // by the names of the kernels; they outlive this
+    const EmbreeTriangles* triangles; // in the order of the records of "triangles"
+    SceneFeatures features;           // the camera's too
+};
+
+// The accelerator must be Embree's.
+[[nodiscard]] HostScene hostScene(const GpuScene& scene, SceneFeatures features);
+
+// The kernels that trace what the host traces. Schedule::hosted does not run them.
+inline constexpr std::array<std::string_view, 2> kTracingKernels{"extend", "connect"};
+
+// Whether kernels by `source` trace rays as the host does: it runs the code that the build embedded. Throws
+// Error where one does not compile.
+[[nodiscard]] bool tracesAsHost(const KernelSource& source);
+
+// The answer for a ray depends on that ray alone: rays are traced one by one, and where triangles are met at
+// equal t the one of the lowest number is hit, in whatever order Embree finds them. For one thread.
+class HostRays {
+  public:
+    HostRays(const HostScene& scene, const FrameParameters& frame, const WaveRange& range);
+    ~HostRays();
+
+    // trace() and isOccluded() of shaders/scene/path_rays.glsl. The surface of a hit is its record.
+    [[nodiscard]] Hit trace(uint32_t slot, uint32_t bounce, Ray& ray);
+    [[nodiscard]] bool isOccluded(const ShadowRay& ray, uint32_t slot, uint32_t bounce);
+
+    // Index of the material of the surface that was met.
+    [[nodiscard]] uint32_t materialOf(const Hit& hit) const;
+
+  private:
+    struct Members;
+    std::unique_ptr<Members> members_;
+};
+
+} // namespace lavalight

@@ -1,0 +1,160 @@
+#include "hosted/record_tracer.h"
+
+#include <algorithm>
+#include <cassert>
+#include <limits>
+
+#include "base/parallel.h"
+#include "hosted/record_planes.h"
+#include "shared/scene.h"
+
+namespace lavalight {
+namespace {
+
+constexpr uint32_t kRecordsPerChunk = 1024;
+constexpr uint8_t kEnded = 0xff; // in the place of a region
+
+glm::vec3 xyz(const glm::uvec4& words) {
+    return glm::uintBitsToFloat(glm::uvec3(words));
+}
+
+} // namespace
+
+const glm::uvec4& RecordBuffers::at(uint32_t plane, uint32_t record) const {
+    return written[plane * stride + record];
+}
+
+uint32_t RecordBuffers::slot(uint32_t record) const {
+    return at(kPlaneOrigin, record).w & kRecordSlotMask;
+}
+
+glm::vec3& RecordBuffers::radiance(uint32_t record) const {
+    return paths[slot(record)].radiance;
+}
+
+SurfaceId RecordBuffers::surfaceBefore(uint32_t record) const {
+    const bool isOnSurface = (at(kPlaneOrigin, record).w & kRecordOnSurface) != 0;
+    return isOnSurface ? SurfaceId{read[kPlaneHit * stride + record].y} : kNoSurface;
+}
+
+// Neighbouring records, which one thread takes.
+struct RecordTracer::Chunk {
+    uint32_t first = 0;
+    uint32_t end = 0;
+    Regions counts{}; // of its records, by the region that they go to
+    Regions places{}; // where the first of each goes
+    uint64_t shadowRays = 0;
+    uint64_t rays = 0;
+};
+
+RecordTracer::RecordTracer(const HostScene& scene, std::span<const uint8_t> classOfMaterials,
+                           uint32_t classes, uint32_t waveSize)
+    : scene_(scene), classOfMaterials_(classOfMaterials), escapes_(static_cast<uint8_t>(classes)),
+      planes_(recordPlanes(scene.features)), hits_(waveSize), regions_(waveSize) {
+    assert(classes < kMostRegions);
+    if ((planes_ & kRecordInterior) != 0)
+        insides_.resize(waveSize);
+}
+
+RecordTracer::Regions RecordTracer::advance(const RecordBuffers& buffers, uint32_t count, uint32_t bounce) {
+    std::vector<Chunk> chunks;
+    for (uint32_t first = 0; first < count; first += kRecordsPerChunk)
+        chunks.push_back({first, std::min(count, first + kRecordsPerChunk)});
+    forEachInParallel(chunks.size(), [&](size_t i) { trace(buffers, bounce, chunks[i]); });
+    Regions totals{};
+    shadowRays_ = rays_ = 0;
+    for (const Chunk& chunk : chunks) {
+        shadowRays_ += chunk.shadowRays;
+        rays_ += chunk.rays;
+    }
+    uint32_t place = 0;
+    for (size_t region = 0; region < totals.size(); ++region)
+        for (Chunk& chunk : chunks) {
+            chunk.places[region] = place;
+            place += chunk.counts[region];
+            totals[region] += chunk.counts[region];
+        }
+    forEachInParallel(chunks.size(), [&](size_t i) { sort(buffers, chunks[i]); });
+    return totals;
+}
+
+// Rays of one kind at a time: the processor's caches of code and branches hold one traversal.
+void RecordTracer::trace(const RecordBuffers& buffers, uint32_t bounce, Chunk& chunk) {
+    HostRays rays(scene_, frame_, range_);
+    std::array<uint32_t, kRecordsPerChunk> withShadowRay;
+    std::array<uint32_t, kRecordsPerChunk> goingOn;
+    for (uint32_t i = chunk.first; i < chunk.end; ++i) {
+        const uint32_t flags = buffers.at(kPlaneOrigin, i).w;
+        withShadowRay[chunk.shadowRays] = goingOn[chunk.rays] = i;
+        chunk.shadowRays += (flags & kRecordHasShadowRay) != 0 ? 1 : 0;
+        chunk.rays += (flags & kRecordGoesOn) != 0 ? 1 : 0;
+        regions_[i] = kEnded;
+        if ((flags & kRecordEmits) != 0)
+            buffers.radiance(i) += xyz(buffers.at(kPlaneEmitted, i));
+    }
+    for (const uint32_t i : std::span(withShadowRay).first(chunk.shadowRays))
+        connect(buffers, bounce, rays, i);
+    for (const uint32_t i : std::span(goingOn).first(chunk.rays)) {
+        regions_[i] = extend(buffers, bounce, rays, i);
+        if (regions_[i] != kEnded)
+            ++chunk.counts[regions_[i]];
+    }
+}
+
+// Adds what the record's shadow ray brings.
+void RecordTracer::connect(const RecordBuffers& buffers, uint32_t bounce, HostRays& rays,
+                           uint32_t record) const {
+    const uint32_t originPlane = (planes_ & kRecordShadowOrigin) != 0 ? kPlaneShadowOrigin : kPlaneOrigin;
+    const glm::uvec4& direction = buffers.at(kPlaneShadow, record);
+    const ShadowRay ray{.origin = xyz(buffers.at(originPlane, record)),
+                        .fromSurface = buffers.surfaceBefore(record),
+                        .direction = xyz(direction),
+                        .toSurface = {direction.w},
+                        .contribution = {},
+                        .unused = 0.0f};
+    if (!rays.isOccluded(ray, buffers.slot(record), bounce - 1))
+        buffers.radiance(record) += xyz(buffers.at(kPlaneContribution, record));
+}
+
+// Traces the record's next ray; returns the region where it goes, or kEnded.
+uint8_t RecordTracer::extend(const RecordBuffers& buffers, uint32_t bounce, HostRays& rays, uint32_t record) {
+    Ray ray{.origin = xyz(buffers.at(kPlaneOrigin, record)),
+            .fromSurface = buffers.surfaceBefore(record),
+            .direction = xyz(buffers.at(kPlaneDirection, record)),
+            .originCosine = 0.0f,
+            .receiver = 0,
+            .interior = {}};
+    if (!insides_.empty()) {
+        const glm::uvec4& inside = buffers.at(kPlaneInterior, record);
+        ray.interior = {inside.x, inside.y, inside.z};
+    }
+    const Hit hit = rays.trace(buffers.slot(record), bounce, ray);
+    if (!insides_.empty())
+        insides_[record] = ray.interior;
+    hits_[record] = {glm::floatBitsToUint(hit.t), hit.record, glm::floatBitsToUint(hit.barycentrics)};
+    if (hit.t < std::numeric_limits<float>::infinity())
+        return classOfMaterials_[rays.materialOf(hit)];
+    const bool anythingShines = (scene_.features & (kFeatureEnvironment | kFeatureEnvironmentMap)) != 0;
+    return anythingShines ? escapes_ : kEnded;
+}
+
+void RecordTracer::sort(const RecordBuffers& buffers, const Chunk& chunk) const {
+    Regions places = chunk.places;
+    const size_t stride = buffers.stride;
+    for (uint32_t i = chunk.first; i < chunk.end; ++i) {
+        if (regions_[i] == kEnded)
+            continue;
+        const uint32_t to = places[regions_[i]]++;
+        for (const uint32_t plane : {kPlaneDirection, kPlaneThroughput, kPlaneOrigin})
+            buffers.read[plane * stride + to] = buffers.written[plane * stride + i];
+        buffers.read[kPlaneOrigin * stride + to].w &= kRecordSlotMask;
+        buffers.read[kPlaneHit * stride + to] = hits_[i];
+        if ((planes_ & kRecordState) != 0)
+            buffers.read[kPlaneState * stride + to] = buffers.written[kPlaneState * stride + i];
+        if (!insides_.empty())
+            buffers.read[kPlaneInterior * stride + to] = {insides_[i].outer, insides_[i].inner,
+                                                          insides_[i].notes, 0};
+    }
+}
+
+} // namespace lavalight

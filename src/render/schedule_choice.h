@@ -1,0 +1,28 @@
+// Which schedule a render has where its settings leave that to the device, and what follows from it.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "device_scene/accelerator.h"
+#include "gpu/device.h"
+#include "kernels/kernel_source.h"
+#include "render/settings.h"
+
+namespace lavalight {
+
+// Fills in the schedule and the wave size where the settings leave them to the device. The host traces as the
+// embedded kernels do: where `source` has others, Schedule::hosted becomes Schedule::fused. Its
+// waves have at most some 930,000 slots. Throws Error
+// where the device does not share its memory and Schedule::hosted is asked for, and as `source` does.
+[[nodiscard]] RenderSettings resolveSchedule(RenderSettings settings, const gpu::DeviceDescription& device,
+                                             const KernelSource& source = embeddedKernel);
+
+// Names of the kernels on which an image depends: those that the render runs, and those that the host
+// replaces. The schedule must not be automatic.
+[[nodiscard]] std::vector<std::string_view> decisiveKernels(const RenderSettings& settings);
+
+// The schedule must not be automatic.
+[[nodiscard]] AcceleratorKind acceleratorOf(const RenderSettings& settings);
+
+} // namespace lavalight
