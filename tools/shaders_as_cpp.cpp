@@ -152,10 +152,9 @@ std::string withSwizzles(std::string text) {
         while (end < text.size() && isWordCharacter(text[end]))
             ++end;
         std::string letters = text.substr(dot + 1, end - dot - 1);
-        std::transform(letters.begin(), letters.end(), letters.begin(), [](char c) {
-            const size_t i = std::string_view("rgba").find(c);
-            return i == std::string_view::npos ? c : "xyzw"[i];
-        });
+        if (letters.find_first_not_of("rgba") == std::string::npos)
+            for (char& letter : letters)
+                letter = "xyzw"[std::string_view("rgba").find(letter)];
         const bool isSwizzle = letters.size() > 1 && letters.size() <= 4 &&
                                letters.find_first_not_of("xyzw") == std::string::npos;
         if (!isSwizzle || dot == 0)

@@ -67,7 +67,7 @@ Hit traceAmongSolids(RayFilter ignored, float end, bool startsVary, inout Ray ra
     Leg leg = startsVary ? legToStart(ray) : Leg(ray.origin, ray.direction, end);
     float passed = 0.0;
     bool isNearStart = false;
-    Hit hit;
+    Hit hit = Hit(kInfinity, 0u, vec2(0.0));
     Boundary boundary;
     for (uint i = 0u; i < kMostLegs; ++i) {
         Hit met;

@@ -13,12 +13,12 @@ LAVALIGHT_SHARED_BEGIN
 //   direction     direction of the ray    cosine at its origin
 //   throughput    throughput              pdf of the BSDF
 //   origin        origin of the ray       slot and flags
-//   hit           t, record, b1           b2                  for the kernels alone, as the next two are for the host alone
-//   shadow        shadow ray's direction  surface that it ends on
+//   hit           t, record, b1           b2                  for the kernels alone
+//   shadow        shadow ray's direction  surface that it ends on   for the host alone, as the next two
 //   contribution  what it adds            -
 //   emitted       what the vertex emits   -
 //   state         etaScale, receiver, -   -                   with kRecordState
-//   shadow origin origin of a shadow ray  -                   with kRecordShadowOrigin; else that of the next ray
+//   shadow origin origin of a shadow ray  -                   for the host, with kRecordShadowOrigin; else that of the next ray
 //   interior      outer, inner, notes     -                   with kRecordInterior
 SHARED_CONST uint kPlaneDirection = 0u;
 SHARED_CONST uint kPlaneThroughput = 1u;
@@ -44,7 +44,7 @@ SHARED_CONST uint kRecordHasShadowRay = 0x2000000u;
 SHARED_CONST uint kRecordEmits = 0x4000000u;
 SHARED_CONST uint kRecordOnSurface = 0x8000000u; // rays start on the surface that was hit: they ignore it
 
-// Planes start an odd number of cache lines apart: with a power of two, a record's parts would compete for one set of a cache.
+// Keeps planes from starting a power of two apart, where a record's parts would compete for one set of a cache.
 SHARED_CONST uint kPlanePadding = 148u; // records
 
 // Records from one plane to the next.

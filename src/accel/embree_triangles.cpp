@@ -32,11 +32,24 @@ void addTriangles(RTCDevice device, RTCScene scene, std::span<const Triangle> tr
     rtcReleaseGeometry(geometry); // the scene holds its own reference
 }
 
+// A device that counts its memory.
+EmbreeDevice newDevice(std::atomic<int64_t>& bytes) {
+    EmbreeDevice device(rtcNewDevice(nullptr));
+    const auto count = [](void* counter, ssize_t more, bool) {
+        *static_cast<std::atomic<int64_t>*>(counter) += more;
+        return true;
+    };
+    if (device)
+        rtcSetDeviceMemoryMonitorFunction(device.get(), count, &bytes);
+    return device;
+}
+
 } // namespace
 
 EmbreeTriangles::EmbreeTriangles(std::span<const Triangle> triangles, RTCBuildQuality quality,
                                  RTCSceneFlags flags)
-    : device_(rtcNewDevice(nullptr)), scene_(device_ ? rtcNewScene(device_.get()) : nullptr) {
+    : bytes_(std::make_unique<std::atomic<int64_t>>(0)), device_(newDevice(*bytes_)),
+      scene_(device_ ? rtcNewScene(device_.get()) : nullptr) {
     const auto start = std::chrono::steady_clock::now();
     if (!scene_)
         throw Error("cannot start Embree (out of memory?)");
@@ -54,14 +67,16 @@ EmbreeTriangles::EmbreeTriangles(std::span<const Triangle> triangles, RTCBuildQu
 
 std::string EmbreeTriangles::identity() {
     const EmbreeDevice device(rtcNewDevice(nullptr));
-    const auto is = [&](RTCDeviceProperty property) {
-        return device && rtcGetDeviceProperty(device.get(), property) != 0;
+    const auto property = [&](RTCDeviceProperty wanted) {
+        return device ? static_cast<long>(rtcGetDeviceProperty(device.get(), wanted)) : 0;
     };
-    const char* const set = is(RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED)   ? "avx512"
-                            : !is(RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED) ? "sse"
-                            : __builtin_cpu_supports("avx2") != 0            ? "avx2"
-                                                                             : "avx";
-    return fmt::format("embree {} {}", RTC_VERSION_STRING, set);
+    const long version = property(RTC_DEVICE_PROPERTY_VERSION); // 31305: 3.13.5
+    const char* set = "sse";
+    if (property(RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED) != 0)
+        set = __builtin_cpu_supports("avx2") != 0 ? "avx2" : "avx";
+    if (property(RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0)
+        set = "avx512";
+    return fmt::format("embree {}.{}.{} {}", version / 10000, version / 100 % 100, version % 100, set);
 }
 
 } // namespace lavalight

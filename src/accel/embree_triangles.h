@@ -1,6 +1,9 @@
 // Triangles in a tree of Embree's own.
 #pragma once
 
+#include <atomic>
+#include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 
@@ -26,12 +29,15 @@ class EmbreeTriangles {
 
     [[nodiscard]] RTCScene scene() const { return scene_.get(); }
     [[nodiscard]] double buildSeconds() const { return buildSeconds_; }
+    // Memory of the tree and of the copied corners.
+    [[nodiscard]] uint64_t bytes() const { return static_cast<uint64_t>(*bytes_); }
 
     // Embree's version and the instruction set that it takes on this processor, by which its answers may
     // differ: "embree 3.13.5 avx2".
     [[nodiscard]] static std::string identity();
 
   private:
+    std::unique_ptr<std::atomic<int64_t>> bytes_; // at an address that Embree knows
     EmbreeDevice device_;
     EmbreeScene scene_;
     double buildSeconds_ = 0.0;

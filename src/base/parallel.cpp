@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <atomic>
 #include <condition_variable>
+#include <exception>
 #include <mutex>
+#include <system_error>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace lavalight {
@@ -16,8 +19,11 @@ class LoopThreads {
   public:
     LoopThreads() {
         const unsigned processors = std::max(1u, std::thread::hardware_concurrency());
-        for (unsigned i = 1; i < processors; ++i) // whoever calls works too
-            threads_.emplace_back([this] { serve(); });
+        try {
+            for (unsigned i = 1; i < processors; ++i) // whoever calls works too
+                threads_.emplace_back([this] { serve(); });
+        } catch (const std::system_error&) { // the system grants no more: those that there are have to do
+        }
     }
     ~LoopThreads() {
         {
@@ -47,14 +53,23 @@ class LoopThreads {
         takePart(work, count);
         std::unique_lock lock(mutex_);
         done_.wait(lock, [&] { return busy_ == 0; });
+        const std::exception_ptr failure = std::exchange(failure_, nullptr);
         isTaken_ = false;
+        if (failure)
+            std::rethrow_exception(failure);
         return true;
     }
 
   private:
     void takePart(const std::function<void(std::size_t)>& work, std::size_t count) {
-        for (std::size_t i = next_++; i < count; i = next_++)
-            work(i);
+        try {
+            for (std::size_t i = next_++; i < count; i = next_++)
+                work(i);
+        } catch (...) {
+            next_ = count; // no more for anyone
+            const std::lock_guard lock(mutex_);
+            failure_ = std::current_exception();
+        }
     }
 
     void serve() {
@@ -83,6 +98,7 @@ class LoopThreads {
     std::size_t count_ = 0;
     std::size_t loop_ = 0; // number of loops so far
     std::size_t busy_ = 0; // threads that are not done with this one
+    std::exception_ptr failure_;
     bool isEnding_ = false;
     std::atomic<std::size_t> next_ = 0; // not guarded, like the threads
     std::vector<std::thread> threads_;

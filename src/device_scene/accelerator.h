@@ -53,7 +53,10 @@ class Accelerator {
     // Null where kernels traverse a BVH.
     [[nodiscard]] const EmbreeTriangles* embree() const { return embree_.get(); }
     [[nodiscard]] double buildSeconds() const { return buildSeconds_; }
-    [[nodiscard]] uint64_t bytes() const { return nodes_.bytes() + triangles_.bytes(); }
+    // On the device, and on the host if it is the host that traces.
+    [[nodiscard]] uint64_t bytes() const {
+        return nodes_.bytes() + triangles_.bytes() + (embree_ ? embree_->bytes() : 0);
+    }
 
   private:
     double buildSeconds_;

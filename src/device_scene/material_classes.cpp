@@ -34,17 +34,20 @@ MaterialClasses materialClasses(const Scene& scene) {
     SceneFeatures ofAll = 0;
     SceneFeatures ofLights = 0;
     std::vector<bool> isWorn(surfaces.size(), false);
-    for (const Mesh& mesh : scene.meshes)
+    std::array<bool, kNames.size()> bounds{}; // boundaries of solids are in the class
+    for (const Mesh& mesh : scene.meshes) {
         isWorn[mesh.material] = true;
+        bounds[classOf(surfaces[mesh.material])] |= mesh.solid != 0;
+    }
     for (size_t i = 0; i < surfaces.size(); ++i) {
         ofAll |= surfaces[i];
         ofLights |= (surfaces[i] & kFeatureEmission) != 0 ? surfaces[i] & kOfLights : 0u;
         ofClasses[classOf(surfaces[i])] |= surfaces[i];
         isUsed[classOf(surfaces[i])] = isUsed[classOf(surfaces[i])] || isWorn[i];
     }
-    for (SceneFeatures& features : ofClasses) // what is beyond a boundary may disperse in its place
-        if ((features & (kFeatureGlass | kFeatureDiffuseTransmission)) != 0)
-            features |= ofAll & kFeatureDispersion;
+    for (size_t i = 0; i < kNames.size(); ++i)
+        if (bounds[i]) // what is beyond a boundary may disperse in its place
+            ofClasses[i] |= ofAll & kFeatureDispersion;
     MaterialClasses classes;
     std::array<uint8_t, kNames.size()> places{};
     for (size_t i = 0; i < kNames.size(); ++i) {

@@ -76,8 +76,17 @@ struct Query {
     [[nodiscard]] ShaderRays::TriangleHit whereMet(const RTCFilterFunctionNArguments& asked,
                                                    const TriangleRecord& triangle) const {
         ShaderRays::TriangleHit at;
-        (void)shader->intersectTriangle(ray, triangle.v0, triangle.v1, triangle.v2, at);
-        if (std::isfinite(at.t)) // also just beyond an edge, where only Embree finds the triangle hit
+        if (shader->intersectTriangle(ray, triangle.v0, triangle.v1, triangle.v2, at))
+            return at;
+        // The two tests differ about the side of an edge: the nearest point of the triangle. Without this, a
+        // triangle that is seen from its edge would be met far beside itself.
+        const vec3 b = max(vec3(1.0f - at.barycentrics.x - at.barycentrics.y, at.barycentrics), vec3(0.0f));
+        const vec3 z(shader->shearCorner(ray, triangle.v0).z, shader->shearCorner(ray, triangle.v1).z,
+                     shader->shearCorner(ray, triangle.v2).z);
+        const float sum = b.x + b.y + b.z;
+        at.t = dot(b, z) / sum;
+        at.barycentrics = yz(b) / sum;
+        if (std::isfinite(at.t))
             return at;
         at.t = RTCRayN_tfar(asked.ray, 1, 0);
         at.barycentrics = vec2(RTCHitN_u(asked.hit, 1, 0), RTCHitN_v(asked.hit, 1, 0));

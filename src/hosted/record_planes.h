@@ -13,7 +13,8 @@ namespace lavalight {
     constexpr SceneFeatures kTwoSided = kFeatureGlass | kFeatureDiffuseTransmission;
     const auto has = [&](SceneFeatures any) { return (features & any) != 0; };
     return (has(kTwoSided | kFeatureLightTree) ? kRecordState : 0u) |
-           (has(kTwoSided) ? kRecordShadowOrigin : 0u) | (has(kFeatureSolids) ? kRecordInterior : 0u);
+           (has(kTwoSided | kFeatureSolids) ? kRecordShadowOrigin : 0u) |
+           (has(kFeatureSolids) ? kRecordInterior : 0u);
 }
 
 } // namespace lavalight

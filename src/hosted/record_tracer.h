@@ -38,7 +38,7 @@ class RecordTracer {
     using Regions = std::array<uint32_t, kMostRegions>;
 
     // `classOfMaterials`: regions of the materials; the one after the last of `classes` is for rays that meet
-    // nothing, unless nothing shines there. All must outlive the tracer.
+    // nothing, unless nothing shines there. The span must outlive the tracer, as what the scene refers to.
     RecordTracer(const HostScene& scene, std::span<const uint8_t> classOfMaterials, uint32_t classes,
                  uint32_t waveSize);
 

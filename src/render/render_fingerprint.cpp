@@ -1,9 +1,11 @@
 #include "render/render_fingerprint.h"
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/content_hash.h"
+#include "hosted/host_rays.h"
 
 namespace lavalight {
 
@@ -22,6 +24,9 @@ std::string shadersOf(const Renderer& renderer) {
         hash.add(name);
         hash.add(kernel.code().content);
     }
+    if (renderer.settings().work.schedule == Schedule::hosted) // the host runs what the build embedded
+        for (const std::string_view kernel : kTracingKernels)
+            hash.add(embeddedKernel(kernel).content);
     hash.add(renderer.scene().albedoTable().kernelContent);
     return hash.text();
 }

@@ -16,8 +16,7 @@ namespace lavalight {
 // Options of the command line: names without dashes, and values.
 using OptionPairs = std::vector<std::pair<std::string, std::string>>;
 
-// How kernels cut up the work of a path. Their code is the same; bits may differ where a driver rounds
-// otherwise.
+// How the work of a path is cut up. Bits may differ, where a driver rounds otherwise in another kernel.
 enum class Schedule {
     automatic, // by the kind of device
     fused,     // one kernel for whole paths

@@ -56,6 +56,7 @@ PreparedScene prepareScene(const RenderPlan& plan, const ImportOptions& moment) 
 void RenderSession::use(const std::shared_ptr<ShaderOverlay>& overlay) {
     plan_.settings.provenance.changedShaders = overlay ? overlay->changed() : std::vector<std::string>();
     source_ = sourceOf(overlay);
+    isToldWhatTraces_ = false;
 }
 
 void RenderSession::use(RenderSettings settings) {
@@ -91,12 +92,14 @@ std::unique_ptr<Renderer> RenderSession::makeRenderer(const PreparedScene& prepa
 }
 
 // Shaders that trace rays otherwise than the host does keep it from tracing.
-void RenderSession::sayWhatTraces(const Renderer& renderer) const {
+void RenderSession::sayWhatTraces(const Renderer& renderer) {
     const Schedule asked = plan_.settings.work.schedule;
     const bool mayBeHosted = asked == Schedule::hosted || asked == Schedule::automatic;
-    if (mayBeHosted && device_->description().sharesMemory && !tracesAsHost(source_))
-        spdlog::info("changed shaders trace rays: the schedule is {}",
-                     nameOf(renderer.settings().work.schedule));
+    if (mayBeHosted && device_->description().sharesMemory && !tracesAsHost(source_) &&
+        !std::exchange(isToldWhatTraces_, true))
+        spdlog::info("edited shaders take part in tracing rays, and the host does not know of them: the "
+                     "schedule is {} instead of {}",
+                     nameOf(renderer.settings().work.schedule), nameOf(Schedule::hosted));
 }
 
 RenderJob RenderSession::prepare(const ImportOptions& moment, const Outputs& outputs) {

@@ -33,7 +33,7 @@ void drawKernels(const LiveStatistics& s) {
 // Draws how many of all paths come to each bounce, and how many end there, in per cent.
 void drawPaths(const std::vector<uint64_t>& raysPerBounce) {
     if (raysPerBounce.empty() || raysPerBounce.front() == 0) {
-        ImGui::TextDisabled("queues: with the schedule wavefront");
+        ImGui::TextDisabled("queues: not with the schedule fused");
         return;
     }
     std::vector<float> alive;

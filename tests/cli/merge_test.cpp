@@ -111,7 +111,7 @@ TEST_F(Merge, RefusesWhatIsNotOfOneImage) {
     render("2:4", "seed.exr", {"--seed", "1"});
     expectUnmergeable("a.exr", "seed.exr", "--seed (0 in a.exr, 1 in seed.exr)");
     render("2:4", "schedule.exr", {"--schedule", "wavefront"});
-    expectUnmergeable("a.exr", "schedule.exr", "--schedule (fused in a.exr, wavefront in schedule.exr)");
+    expectUnmergeable("a.exr", "schedule.exr", "--schedule (hosted in a.exr, wavefront in schedule.exr)");
     render("2:4", "scene.exr", {}, "cornell-glass");
     expectUnmergeable("a.exr", "scene.exr", "scene (cornell-box in a.exr, cornell-glass in scene.exr)");
     render("2:4", "view.exr", {"--fov", "30"});

@@ -2,6 +2,7 @@
 #include "base/parallel.h"
 
 #include <atomic>
+#include <stdexcept>
 #include <thread>
 #include <vector>
 
@@ -18,6 +19,19 @@ TEST(ForEachInParallel, VisitsEachNumberOnceAndReturnsWhenAllIsDone) {
             ASSERT_EQ(visits[i], 1) << i << " of " << count;
         EXPECT_EQ(visits[count], 0);
     }
+}
+
+TEST(ForEachInParallel, ThrowsWhatTheWorkThrowsAndServesTheNextLoop) {
+    for (const std::size_t bad : {std::size_t{0}, std::size_t{500}}) {
+        const auto work = [&](std::size_t i) {
+            if (i == bad)
+                throw std::runtime_error("bad");
+        };
+        EXPECT_THROW(forEachInParallel(1000, work), std::runtime_error);
+    }
+    std::atomic<int> visits = 0;
+    forEachInParallel(1000, [&](std::size_t) { ++visits; });
+    EXPECT_EQ(visits, 1000);
 }
 
 TEST(ForEachInParallel, RunsWithinALoopAndOnSeveralThreadsAtOnce) {
