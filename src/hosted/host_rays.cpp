@@ -78,9 +78,12 @@ struct Query {
         ShaderRays::TriangleHit at;
         if (shader->intersectTriangle(ray, triangle.v0, triangle.v1, triangle.v2, at))
             return at;
+        const vec3 weights(1.0f - at.barycentrics.x - at.barycentrics.y, at.barycentrics);
+        if (at.t <= 0.0f && all(greaterThan(weights, vec3(-1e-5f))))
+            return at; // behind the origin, or at it
         // The two tests differ about the side of an edge: the nearest point of the triangle. Without this, a
         // triangle that is seen from its edge would be met far beside itself.
-        const vec3 b = max(vec3(1.0f - at.barycentrics.x - at.barycentrics.y, at.barycentrics), vec3(0.0f));
+        const vec3 b = max(weights, vec3(0.0f));
         const vec3 z(shader->shearCorner(ray, triangle.v0).z, shader->shearCorner(ray, triangle.v1).z,
                      shader->shearCorner(ray, triangle.v2).z);
         const float sum = b.x + b.y + b.z;
