@@ -61,6 +61,7 @@ struct Query {
     // Takes the triangle for the nearest; false: it is not, or lets the ray through.
     [[nodiscard]] bool accepts(const RTCFilterFunctionNArguments& asked) {
         const SurfaceId met{RTCHitN_primID(asked.hit, 1, 0)};
+        // passesThrough() would say so below, but most rays are offered the triangle that they start on.
         if (isSameSurface(met, ignored->firstSurface) || isSameSurface(met, ignored->secondSurface))
             return false;
         const TriangleRecord triangle = shader->loadTriangle(met.primitive);
@@ -78,26 +79,21 @@ struct Query {
         ShaderRays::TriangleHit at;
         if (shader->intersectTriangle(ray, triangle.v0, triangle.v1, triangle.v2, at))
             return at;
-        const vec3 weights(1.0f - at.barycentrics.x - at.barycentrics.y, at.barycentrics);
+        vec3 weights(1.0f - at.barycentrics.x - at.barycentrics.y, at.barycentrics);
         if (at.t <= 0.0f && all(greaterThan(weights, vec3(-1e-5f))))
-            return at; // behind the origin, or at it
+            return at;                                           // behind the origin, or at it
+        if (!std::isfinite(weights.x + weights.y + weights.z)) { // our test sees the triangle as a line
+            const vec2 b(RTCHitN_u(asked.hit, 1, 0), RTCHitN_v(asked.hit, 1, 0));
+            weights = vec3(1.0f - b.x - b.y, b);
+        }
         // The two tests differ about the side of an edge: the nearest point of the triangle. Without this, a
         // triangle that is seen from its edge would be met far beside itself.
-        const vec3 b = max(weights, vec3(0.0f));
-        const vec3 z(shader->shearCorner(ray, triangle.v0).z, shader->shearCorner(ray, triangle.v1).z,
-                     shader->shearCorner(ray, triangle.v2).z);
-        const float sum = b.x + b.y + b.z;
-        at.t = dot(b, z) / sum;
-        at.barycentrics = yz(b) / sum;
-        if (std::isfinite(at.t))
-            return at;
-        at.t = RTCRayN_tfar(asked.ray, 1, 0);
-        at.barycentrics = vec2(RTCHitN_u(asked.hit, 1, 0), RTCHitN_v(asked.hit, 1, 0));
-        const vec3 ng(RTCHitN_Ng_x(asked.hit, 1, 0), RTCHitN_Ng_y(asked.hit, 1, 0),
-                      RTCHitN_Ng_z(asked.hit, 1, 0));
-        const vec3 direction(RTCRayN_dir_x(asked.ray, 1, 0), RTCRayN_dir_y(asked.ray, 1, 0),
-                             RTCRayN_dir_z(asked.ray, 1, 0));
-        at.front = dot(ng, direction) < 0.0f;
+        weights = max(weights, vec3(0.0f));
+        weights /= weights.x + weights.y + weights.z;
+        at.barycentrics = yz(weights);
+        at.t = dot(weights,
+                   vec3(shader->shearCorner(ray, triangle.v0).z, shader->shearCorner(ray, triangle.v1).z,
+                        shader->shearCorner(ray, triangle.v2).z));
         return at;
     }
 
@@ -156,21 +152,24 @@ Query makeQuery(ShaderRays& shader, vec3 origin, vec3 direction, float tMax,
 }
 
 #if RTC_VERSION_MAJOR >= 4
-void intersect(RTCScene scene, Query& query, RTCRayHit& ray) {
-    RTCIntersectArguments arguments;
-    rtcInitIntersectArguments(&arguments);
+template <typename Arguments>
+void setFilter(Arguments& arguments, Query& query) {
     arguments.context = &query.context;
     arguments.filter = filter;
     arguments.flags = RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER;
+}
+
+void intersect(RTCScene scene, Query& query, RTCRayHit& ray) {
+    RTCIntersectArguments arguments;
+    rtcInitIntersectArguments(&arguments);
+    setFilter(arguments, query);
     rtcIntersect1(scene, &ray, &arguments);
 }
 
 void occlude(RTCScene scene, Query& query, RTCRay& ray) {
     RTCOccludedArguments arguments;
     rtcInitOccludedArguments(&arguments);
-    arguments.context = &query.context;
-    arguments.filter = filter;
-    arguments.flags = RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER;
+    setFilter(arguments, query);
     rtcOccluded1(scene, &ray, &arguments);
 }
 #else
@@ -205,21 +204,18 @@ bool ShaderRays::intersectAny(vec3 origin, vec3 direction, float tMax, RayFilter
 
 } // namespace glsl
 
-namespace {
-
-glsl::TexelBuffer texelsOf(const gpu::ResourceTable& scene, std::string_view name) {
-    const std::span<const glm::uvec4> texels = scene.get(name).mapped<const glm::uvec4>();
-    assert(texels.data() != nullptr);
-    return {texels.data()};
-}
-
-} // namespace
-
 HostScene hostScene(const GpuScene& scene, SceneFeatures features) {
     assert(scene.accelerator().embree() != nullptr);
-    HostScene host{{}, scene.accelerator().embree(), features};
-    scene.addTo(host.buffers);
-    return host;
+    gpu::ResourceTable buffers;
+    scene.addTo(buffers);
+    const auto texels = [&](const char* name) {
+        const std::span<const glm::uvec4> mapped = buffers.get(name).mapped<const glm::uvec4>();
+        assert(mapped.data() != nullptr);
+        return mapped;
+    };
+    return {texels("triangles"),      texels("triangleNormals"),    texels("materials"),
+            texels("pictures"),       texels("textures"),           texels("triangleUvs"),
+            texels("triangleColors"), scene.accelerator().embree(), features};
 }
 
 bool tracesAsHost(const KernelSource& source) {
@@ -236,16 +232,16 @@ HostRays::HostRays(const HostScene& scene, const FrameParameters& frame, const W
     : members_(std::make_unique<Members>()) {
     glsl::ShaderRays& shader = members_->shader;
     shader.features = scene.features;
-    shader.embree = scene.triangles->scene();
+    shader.embree = scene.tree->scene();
     shader.frame = frame;
     shader.range = range;
-    shader.triangles = texelsOf(scene.buffers, "triangles");
-    shader.triangleNormals = texelsOf(scene.buffers, "triangleNormals");
-    shader.materials = texelsOf(scene.buffers, "materials");
-    shader.pictures = texelsOf(scene.buffers, "pictures");
-    shader.textures = texelsOf(scene.buffers, "textures");
-    shader.triangleUvs = texelsOf(scene.buffers, "triangleUvs");
-    shader.triangleColors = texelsOf(scene.buffers, "triangleColors");
+    shader.triangles = {scene.triangles.data()};
+    shader.triangleNormals = {scene.triangleNormals.data()};
+    shader.materials = {scene.materials.data()};
+    shader.pictures = {scene.pictures.data()};
+    shader.textures = {scene.textures.data()};
+    shader.triangleUvs = {scene.triangleUvs.data()};
+    shader.triangleColors = {scene.triangleColors.data()};
 }
 
 HostRays::~HostRays() = default;

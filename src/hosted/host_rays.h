@@ -5,7 +5,10 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string_view>
+
+#include <glm/glm.hpp>
 
 #include "accel/embree_triangles.h"
 #include "device_scene/gpu_scene.h"
@@ -19,12 +22,14 @@ namespace lavalight {
 
 // A scene whose buffers the host reads where the device does: one that shares its memory.
 struct HostScene {
-    gpu::ResourceTable buffers;       // by the names of the kernels; they outlive this
-    const EmbreeTriangles* triangles; // in the order of the records of "triangles"
-    SceneFeatures features;           // the camera's too
+    // The buffers that kernels know by these names.
+    std::span<const glm::uvec4> triangles, triangleNormals, materials, pictures, textures, triangleUvs,
+        triangleColors;
+    const EmbreeTriangles* tree; // over the records of `triangles`
+    SceneFeatures features;      // the camera's too
 };
 
-// The accelerator must be Embree's.
+// `scene` must outlive the result, and its accelerator be Embree's.
 [[nodiscard]] HostScene hostScene(const GpuScene& scene, SceneFeatures features);
 
 // The kernels that trace what the host traces. Schedule::hosted does not run them.

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include <sched.h>
+
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -201,9 +203,28 @@ TEST_F(Render, ScheduleIsChosenByNameOrByTheKindOfDevice) {
             << kind;
 }
 
+// Programs that are started meanwhile have one processor.
+class OneProcessor {
+  public:
+    OneProcessor() {
+        sched_getaffinity(0, sizeof(before_), &before_);
+        cpu_set_t one;
+        CPU_ZERO(&one);
+        CPU_SET(sched_getcpu(), &one);
+        EXPECT_EQ(sched_setaffinity(0, sizeof(one), &one), 0);
+    }
+    ~OneProcessor() { sched_setaffinity(0, sizeof(before_), &before_); }
+    OneProcessor(const OneProcessor&) = delete;
+    OneProcessor& operator=(const OneProcessor&) = delete;
+
+  private:
+    cpu_set_t before_{};
+};
+
 TEST_F(Render, WaveSizeBandsAndThreadsChangeNoBit) {
     {
         const EnvironmentVariable threads("LP_NUM_THREADS", "1"); // lavapipe's; other drivers do not look
+        const OneProcessor forTheHost;
         expectSuccess({"-o", "one.exr"});
     }
     const EnvironmentVariable threads("LP_NUM_THREADS", "2");

@@ -54,14 +54,19 @@ float roundingOfT(const Ray& ray, const Triangle& triangle) {
 struct Dense {
     explicit Dense(gpu::Device& device)
         : scene(makeDenseScene(300000)), triangles(sceneTriangles(scene)), gpuScene(device, packScene(scene)),
-          tracer(device, gpuScene), oracle(triangles, EmbreeOracle::Traversal::robust),
+          tracer(device, gpuScene),
+          hostScene(device, packScene(scene, collectLights(scene, scene.environment, LightSelection::power),
+                                      AcceleratorKind::embree)),
+          host(device, hostScene), oracle(triangles, EmbreeOracle::Traversal::robust),
           cameraRays(makeCameraRays(scene.cameras.front(), kRays, 1)), cameraHits(tracer.closest(cameraRays)),
           points(hitPoints(cameraRays, cameraHits, triangles)) {}
 
     Scene scene;
     std::vector<Triangle> triangles;
     GpuScene gpuScene;
-    RayTracer tracer;
+    RayTracer tracer; // by kernels
+    GpuScene hostScene;
+    RayTracer host; // by the host
     EmbreeOracle oracle;
     std::vector<Ray> cameraRays;
     std::vector<TracedHit> cameraHits;
@@ -143,9 +148,7 @@ TEST_F(TraverseTest, ShadowRaysEndWhereTheirDirectionEnds) {
 
 // The host takes what Embree proposes, and decides by the test of the kernels: to the bit.
 TEST_F(TraverseTest, TheHostFindsWhatKernelsFind) {
-    const Lights lights = collectLights(dense().scene, glm::vec3(0.0f), LightSelection::power);
-    const GpuScene scene(device(), packScene(dense().scene, lights, AcceleratorKind::embree));
-    RayTracer host(device(), scene);
+    RayTracer& host = dense().host;
     const auto differences = [](const std::vector<TracedHit>& a, const std::vector<TracedHit>& b) {
         size_t count = 0;
         for (size_t i = 0; i < a.size(); ++i)
@@ -169,11 +172,13 @@ TEST_F(TraverseTest, ATriangleIsSkippedByItsId) {
     std::vector<Ray> rays = dense().cameraRays;
     for (size_t i = 0; i < rays.size(); ++i)
         rays[i].fromSurface = dense().cameraHits[i].surface;
-    const std::vector<TracedHit> behind = dense().tracer.closest(rays);
-    for (size_t i = 0; i < rays.size(); ++i) {
-        const TracedHit& first = dense().cameraHits[i];
-        ASSERT_TRUE(!isSurface(first.surface) || !isSameSurface(behind[i].surface, first.surface));
-        ASSERT_GE(behind[i].t, first.t);
+    for (RayTracer* tracer : {&dense().tracer, &dense().host}) {
+        const std::vector<TracedHit> behind = tracer->closest(rays);
+        for (size_t i = 0; i < rays.size(); ++i) {
+            const TracedHit& first = dense().cameraHits[i];
+            ASSERT_TRUE(!isSurface(first.surface) || !isSameSurface(behind[i].surface, first.surface));
+            ASSERT_GE(behind[i].t, first.t);
+        }
     }
 }
 

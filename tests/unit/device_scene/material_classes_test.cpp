@@ -3,28 +3,19 @@
 
 #include <gtest/gtest.h>
 
-namespace lavalight {
+#include "support/scene_builder.h"
+
+namespace lavalight::test {
 namespace {
 
-Material lambert() {
-    Material material;
-    material.metallic = 0.0f;
-    material.specular = 0.0f;
-    return material;
-}
+const Material kLambert = lambert(glm::vec3(1.0f));
 
 // A scene with a mesh for each material.
-Scene wearing(std::vector<Material> materials) {
-    Scene scene;
-    scene.materials = std::move(materials);
-    for (uint32_t i = 0; i < scene.materials.size(); ++i) {
-        Mesh mesh;
-        mesh.material = i;
-        mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-        mesh.triangles = {{0, 1, 2}};
-        scene.meshes.push_back(mesh);
-    }
-    return scene;
+Scene wearing(const std::vector<Material>& materials) {
+    SceneBuilder builder;
+    for (const Material& material : materials)
+        builder.add(rectangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0}), material);
+    return builder.build();
 }
 
 bool leavesOut(const MaterialClasses& classes, uint32_t material, SceneFeatures feature) {
@@ -32,12 +23,10 @@ bool leavesOut(const MaterialClasses& classes, uint32_t material, SceneFeatures 
 }
 
 TEST(MaterialClasses, ALambertSurfacePaysForNoOther) {
-    Material glass = lambert();
+    Material glass = kLambert;
     glass.specular = 1.0f;
     glass.transmission = 1.0f;
-    Material lamp = lambert();
-    lamp.emission = glm::vec3(1.0f);
-    const MaterialClasses classes = materialClasses(wearing({lambert(), glass, lamp}));
+    const MaterialClasses classes = materialClasses(wearing({kLambert, glass, light(glm::vec3(1.0f))}));
     ASSERT_EQ(classes.list.size(), 3u);
     EXPECT_EQ(classes.list[classes.ofMaterials[0]].name, "lambert");
     for (const SceneFeatures feature : {kFeatureGlass, kFeatureSpecular, kFeatureEmission})
@@ -49,7 +38,7 @@ TEST(MaterialClasses, ALambertSurfacePaysForNoOther) {
 }
 
 TEST(MaterialClasses, ThereAreNoneThatNothingWears) {
-    Scene scene = wearing({lambert(), Material{}});
+    Scene scene = wearing({kLambert, Material{}});
     scene.meshes.pop_back();
     const MaterialClasses classes = materialClasses(scene);
     ASSERT_EQ(classes.list.size(), 1u);
@@ -59,11 +48,10 @@ TEST(MaterialClasses, ThereAreNoneThatNothingWears) {
 
 // A vertex of any material samples them.
 TEST(MaterialClasses, AllKeepWhatLightsNeed) {
-    Material lamp = lambert();
-    lamp.emission = glm::vec3(1.0f);
+    Material lamp = light(glm::vec3(1.0f));
     lamp.clearcoat = 1.0f;
     lamp.textures[static_cast<size_t>(TextureSlot::emission)] = Texture{};
-    const MaterialClasses classes = materialClasses(wearing({lambert(), lamp}));
+    const MaterialClasses classes = materialClasses(wearing({kLambert, lamp}));
     ASSERT_EQ(classes.list.size(), 2u);
     for (const SceneFeatures feature : {kFeatureTextures, kFeatureClearcoat, kFeatureCoatedLights})
         EXPECT_FALSE(leavesOut(classes, 0, feature));
@@ -72,12 +60,12 @@ TEST(MaterialClasses, AllKeepWhatLightsNeed) {
 
 // A metal that bounds a solid may stand in a dispersing one.
 TEST(MaterialClasses, BoundariesKeepDispersion) {
-    Material prism = lambert();
+    Material prism = kLambert;
     prism.transmission = 1.0f;
     prism.isSolid = true;
     prism.dispersion = 1.0f;
     Material metal;
-    Scene scene = wearing({prism, metal, lambert()});
+    Scene scene = wearing({prism, metal, kLambert});
     scene.meshes[0].solid = 1;
     scene.meshes[1].solid = 2;
     const MaterialClasses classes = materialClasses(scene);
@@ -86,4 +74,4 @@ TEST(MaterialClasses, BoundariesKeepDispersion) {
 }
 
 } // namespace
-} // namespace lavalight
+} // namespace lavalight::test
