@@ -1,4 +1,4 @@
-// What the kernel trace_path tells of one vertex of a path.
+// What the kernels trace_path and hosted/trace_path tell of one vertex of a path.
 #ifndef LAVALIGHT_SHARED_TRACED_PATH_H
 #define LAVALIGHT_SHARED_TRACED_PATH_H
 

@@ -31,7 +31,7 @@ struct KernelVariant {
     bool operator==(const KernelVariant&) const = default;
 };
 
-// Those of the phases, each once. `classes`: of the scene's materials; Schedule::hosted asks for them.
+// The variants that the phases run, each once. `classes`: of the scene's materials, for Schedule::hosted.
 [[nodiscard]] std::vector<KernelVariant> kernelVariants(std::span<const Phase> phases, Schedule schedule,
                                                         const MaterialClasses& classes);
 // The name of the variant of a kernel for a class.

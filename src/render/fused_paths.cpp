@@ -36,9 +36,7 @@ FusedPaths::FusedPaths(gpu::Device& device, const WaveInputs& inputs)
     : state_(device, inputs),
       lanes_(device, "lanes", mostLanes(inputs.frame.waveSize) * sizeof(Lane), gpu::BufferUse::storage),
       counters_(device, "lane counters", sizeof(LaneCounters), gpu::BufferUse::readback), commands_(device) {
-    bands_.reserve(inputs.film.bands().size());
-    for (const FilmBand& band : inputs.film.bands())
-        bands_.emplace_back(device, inputs, band, table());
+    bands_ = bindBands(device, inputs, table());
     commands_.begin();
     commands_.fill(lanes_, 0); // no lane belongs to a wave yet
     commands_.submitAndWait();

@@ -27,9 +27,7 @@ HostedPaths::HostedPaths(gpu::Device& device, const WaveInputs& inputs)
       tracer_(hostScene(inputs.scene, inputs.features), inputs.classes.ofMaterials,
               static_cast<uint32_t>(classes_.size()), inputs.frame.waveSize),
       commands_(device) {
-    bands_.reserve(inputs.film.bands().size());
-    for (const FilmBand& band : inputs.film.bands())
-        bands_.emplace_back(device, inputs, band, table());
+    bands_ = bindBands(device, inputs, table());
 }
 
 gpu::ResourceTable HostedPaths::table() const {

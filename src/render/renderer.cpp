@@ -240,10 +240,6 @@ bool Renderer::keepsAccelerator(const RenderSettings& wanted, const KernelSource
 
 std::vector<std::string> Renderer::changedKernels(const KernelSource& source) const {
     std::vector<std::string> names = kernels_.changed(source);
-    if (settings_.work.schedule == Schedule::hosted)
-        for (const std::string_view kernel : kTracingKernels)
-            if (source(kernel).content != embeddedKernel(kernel).content)
-                names.emplace_back(kernel);
     if (wantsAlbedoTable(source))
         names.emplace_back("albedo");
     return names;

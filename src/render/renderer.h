@@ -67,7 +67,7 @@ class Renderer {
     // scene anew. Throws Error as `source` does.
     [[nodiscard]] bool keepsAccelerator(const RenderSettings& wanted, const KernelSource& source) const;
 
-    // Names of the kernels whose code is another by `source`, those among them that the host replaces. Throws
+    // Names of the kernels whose code is another by `source`. Throws
     // Error where one does not compile. May be asked while it renders.
     [[nodiscard]] std::vector<std::string> changedKernels(const KernelSource& source) const;
     // Goes on with the kernels of changedKernels(), and an empty film. Throws Error as restart() does.

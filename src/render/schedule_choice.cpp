@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "hosted/host_rays.h"
 #include "render/phase.h"
+#include "render/setting_names.h"
 #include "shared/records.h"
 
 namespace lavalight {
@@ -19,6 +20,9 @@ constexpr uint32_t kWaveSize = 1u << 18;
 
 // The most records of a wave, whose planes lie in one buffer: every device allows 128 MiB.
 constexpr uint32_t kMostRecords = (1u << 27) / (kPlanesOut * sizeof(glm::uvec4)) - kPlanePadding;
+
+// The schedule that takes over where kernels must trace on a CPU.
+constexpr Schedule kInsteadOfHosted = Schedule::fused;
 
 } // namespace
 
@@ -35,7 +39,7 @@ RenderSettings resolveSchedule(RenderSettings settings, const gpu::DeviceDescrip
                    : device.isCpu      ? Schedule::fused
                                        : Schedule::wavefront;
     if (schedule == Schedule::hosted && !tracesAsHost(source))
-        schedule = Schedule::fused;
+        schedule = kInsteadOfHosted;
     if (settings.work.waveSize == 0)
         settings.work.waveSize = kWaveSize;
     if (schedule == Schedule::hosted)
@@ -43,10 +47,24 @@ RenderSettings resolveSchedule(RenderSettings settings, const gpu::DeviceDescrip
     return settings;
 }
 
+std::string whyNotHosted(const RenderSettings& asked, const gpu::DeviceDescription& device,
+                         const KernelSource& source) {
+    const bool mayBeHosted =
+        asked.work.schedule == Schedule::hosted || asked.work.schedule == Schedule::automatic;
+    if (!mayBeHosted || !device.sharesMemory || tracesAsHost(source))
+        return {};
+    return fmt::format("edited shaders take part in tracing rays, and the host does not know of them: the "
+                       "schedule is {} instead of {}",
+                       nameOf(kInsteadOfHosted), nameOf(Schedule::hosted));
+}
+
 std::vector<std::string_view> decisiveKernels(const RenderSettings& settings) {
     std::vector<std::string_view> names = kernelNames(settings);
-    if (settings.work.schedule == Schedule::hosted)
-        names.insert(names.end(), kTracingKernels.begin(), kTracingKernels.end());
+    if (settings.work.schedule != Schedule::hosted)
+        return names;
+    names.insert(names.end(), kTracingKernels.begin(), kTracingKernels.end());
+    const std::vector<std::string_view> instead = kernelNames(phasesOf(settings), kInsteadOfHosted);
+    names.insert(names.end(), instead.begin(), instead.end());
     return names;
 }
 

@@ -1,6 +1,7 @@
 // Which schedule a render has where its settings leave that to the device, and what follows from it.
 #pragma once
 
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -12,14 +13,18 @@
 namespace lavalight {
 
 // Fills in the schedule and the wave size where the settings leave them to the device. The host traces as the
-// embedded kernels do: where `source` has others, Schedule::hosted becomes Schedule::fused. Its
-// waves have at most some 930,000 slots. Throws Error
-// where the device does not share its memory and Schedule::hosted is asked for, and as `source` does.
+// embedded kernels do: where `source` has others, Schedule::hosted becomes Schedule::fused. Its waves have at
+// most 931,919 slots. Throws Error where Schedule::hosted is asked for and the device does not share its
+// memory, and as `source` does.
 [[nodiscard]] RenderSettings resolveSchedule(RenderSettings settings, const gpu::DeviceDescription& device,
                                              const KernelSource& source = embeddedKernel);
 
-// Names of the kernels on which an image depends: those that the render runs, and those that the host
-// replaces. The schedule must not be automatic.
+// A message if `asked` lets the host trace on the device and `source` keeps it from that; else nothing.
+[[nodiscard]] std::string whyNotHosted(const RenderSettings& asked, const gpu::DeviceDescription& device,
+                                       const KernelSource& source);
+
+// Names of the kernels on which an image depends: for Schedule::hosted also those that the host replaces, and
+// those of the schedule that takes over. The schedule must not be automatic.
 [[nodiscard]] std::vector<std::string_view> decisiveKernels(const RenderSettings& settings);
 
 // The schedule must not be automatic.

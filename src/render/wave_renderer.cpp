@@ -70,6 +70,15 @@ const gpu::BoundKernel& BoundBand::operator[](std::string_view name) const {
     return found->second;
 }
 
+std::vector<BoundBand> bindBands(gpu::Device& device, const WaveInputs& inputs,
+                                 const gpu::ResourceTable& state) {
+    std::vector<BoundBand> bands;
+    bands.reserve(inputs.film.bands().size());
+    for (const FilmBand& band : inputs.film.bands())
+        bands.emplace_back(device, inputs, band, state);
+    return bands;
+}
+
 uint32_t groupsFor(uint32_t invocations) {
     return (invocations + kWorkgroupSize - 1) / kWorkgroupSize;
 }

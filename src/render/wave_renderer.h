@@ -99,6 +99,10 @@ class BoundBand {
     std::map<std::string, gpu::BoundKernel, std::less<>> kernels_;
 };
 
+// The kernels bound to each band of the film. `state`: the buffers that all bands share.
+[[nodiscard]] std::vector<BoundBand> bindBands(gpu::Device& device, const WaveInputs& inputs,
+                                               const gpu::ResourceTable& state);
+
 [[nodiscard]] uint32_t groupsFor(uint32_t invocations);
 // Workgroups for the most invocations that a kernel can have in a wave.
 [[nodiscard]] uint32_t groupsFor(Over over, const WaveRange& range);

@@ -34,9 +34,7 @@ Wavefront::Wavefront(gpu::Device& device, const WaveInputs& inputs)
     for (size_t i = 0; i < turns; ++i) {
         turns_.emplace_back(device, maxBounces_);
         commands_.emplace_back(device);
-        bands_.emplace_back().reserve(inputs.film.bands().size());
-        for (const FilmBand& band : inputs.film.bands())
-            bands_.back().emplace_back(device, inputs, band, tableOf(turns_.back()));
+        bands_.push_back(bindBands(device, inputs, tableOf(turns_.back())));
     }
 }
 

@@ -6,7 +6,7 @@
 
 #include "base/log.h"
 #include "hosted/host_rays.h"
-#include "render/setting_names.h"
+#include "render/schedule_choice.h"
 #include "scene/clipping.h"
 #include "scene/view_extent.h"
 #include "scene/world_position.h"
@@ -91,15 +91,20 @@ std::unique_ptr<Renderer> RenderSession::makeRenderer(const PreparedScene& prepa
                                       std::move(earlier), source_);
 }
 
-// Shaders that trace rays otherwise than the host does keep it from tracing.
-void RenderSession::sayWhatTraces(const Renderer& renderer) {
-    const Schedule asked = plan_.settings.work.schedule;
-    const bool mayBeHosted = asked == Schedule::hosted || asked == Schedule::automatic;
-    if (mayBeHosted && device_->description().sharesMemory && !tracesAsHost(source_) &&
-        !std::exchange(isToldWhatTraces_, true))
-        spdlog::info("edited shaders take part in tracing rays, and the host does not know of them: the "
-                     "schedule is {} instead of {}",
-                     nameOf(renderer.settings().work.schedule), nameOf(Schedule::hosted));
+void RenderSession::sayWhatTraces() {
+    const std::string why = whyNotHosted(plan_.settings, device_->description(), source_);
+    if (!std::exchange(isToldWhatTraces_, true) && !why.empty())
+        spdlog::info("{}", why);
+}
+
+std::vector<std::string> RenderSession::changedKernels(const RenderJob& job,
+                                                       const KernelSource& source) const {
+    std::vector<std::string> names = job.renderer->changedKernels(source);
+    if (!job.renderer->keepsAccelerator(plan_.settings, source))
+        names.insert(names.end(), kTracingKernels.begin(), kTracingKernels.end());
+    if (toneMapper_ && toneMapper_->isChanged(source))
+        names.emplace_back("tonemap");
+    return names;
 }
 
 RenderJob RenderSession::prepare(const ImportOptions& moment, const Outputs& outputs) {
@@ -113,7 +118,7 @@ RenderJob RenderSession::prepare(const ImportOptions& moment, const Outputs& out
     job.device = device_;
     job.watch.lap("device");
     job.renderer = makeRenderer(prepared);
-    sayWhatTraces(*job.renderer);
+    sayWhatTraces();
     job.camera = prepared.camera;
     if (!outputs.png.empty() && !toneMapper_)
         toneMapper_.emplace(*device_, source_);
@@ -131,7 +136,7 @@ void RenderSession::reload(RenderJob& job) {
         job.renderer->reloadKernels(source_);
     } else {
         job.renderer = std::make_unique<Renderer>(*device_, job.scene, job.camera, plan_.settings, source_);
-        sayWhatTraces(*job.renderer);
+        sayWhatTraces();
     }
     toneMapper_ = std::move(toneMapper);
     job.watch.lap("prepare");

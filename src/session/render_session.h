@@ -56,6 +56,10 @@ class RenderSession {
     // Loads the scene, opens the device if this is the first job, and compiles the kernels that `outputs`
     // need. Throws Error or UsageError.
     [[nodiscard]] RenderJob prepare(const ImportOptions& moment, const Outputs& outputs);
+    // Names of the kernels on which the job's images depend and whose code is another by `source`. Throws
+    // Error as `source` does.
+    [[nodiscard]] std::vector<std::string> changedKernels(const RenderJob& job,
+                                                          const KernelSource& source) const;
     // Goes on with the shaders of use() and an empty film. Throws Error with the job as it was.
     void reload(RenderJob& job);
 
@@ -66,13 +70,10 @@ class RenderSession {
     // Ends a job; its kernels serve the next one.
     void finish(RenderJob job) { kernels_.emplace(job.renderer->releaseKernels()); }
 
-    // The tone mapper, once a job had a PNG to write; else null.
-    [[nodiscard]] const ToneMapper* toneMapper() const { return toneMapper_ ? &*toneMapper_ : nullptr; }
-
   private:
     [[nodiscard]] PreparedScene load(const ImportOptions& moment);
     [[nodiscard]] std::unique_ptr<Renderer> makeRenderer(const PreparedScene& prepared);
-    void sayWhatTraces(const Renderer& renderer);
+    void sayWhatTraces();
 
     RenderPlan plan_;
     KernelSource source_ = embeddedKernel;

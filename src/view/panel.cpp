@@ -17,12 +17,22 @@ namespace {
 constexpr ImGuiWindowFlags kPlain = ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings;
 const ImVec4 kErrorColor(1.0f, 0.5f, 0.4f, 1.0f);
 
+void chooseSchedule(ViewState& view) {
+    std::vector<SettingName<Schedule>> names;
+    for (const SettingName<Schedule>& name : settingNames<Schedule>())
+        if (view.canBeHosted || name.value != Schedule::hosted)
+            names.push_back(name);
+    chooseAmong<Schedule>(
+        "schedule", names, view.settings.work.schedule,
+        "One kernel for whole paths, or one for each step with queues between them, or rays "
+        "traced by the host");
+}
+
 void drawEstimators(ViewState& view) {
     if (ImGui::CollapsingHeader("Estimator", ImGuiTreeNodeFlags_DefaultOpen)) {
         ImGui::PushID("left");
         drawEstimator(view.settings.estimator);
-        choose("schedule", view.settings.work.schedule,
-               "One kernel for whole paths, or one for each step, with queues between them");
+        chooseSchedule(view);
         tick("compare", view.isSplit, "Renders other settings beside these, for the same time");
         ImGui::PopID();
     }

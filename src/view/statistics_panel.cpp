@@ -26,7 +26,7 @@ void drawKernels(const LiveStatistics& s) {
         const double share = total > 0.0 ? time.seconds / total : 0.0;
         ImGui::ProgressBar(static_cast<float>(share), ImVec2(-1.0f, 0.0f),
                            fmt::format("{} {:.0f} %", name, 100.0 * share).c_str());
-        explain("This kernel's share of the time that the device works");
+        explain("Its share of the time of all kernels, and of the rays on the host");
     }
 }
 

@@ -26,7 +26,8 @@ struct ViewState {
     float splitAt = 0.5f;      // share of the window's width
     bool showsPanel = true;
     bool showsKeys = false;
-    bool isFlying = false; // keys or mouse move the camera
+    bool canBeHosted = false; // the device lets the host trace
+    bool isFlying = false;    // keys or mouse move the camera
 };
 
 // Lets the cameras of a view stay where they are in the world, after `view.scene` has taken the place of a

@@ -57,9 +57,11 @@ Viewer::Viewer(ViewerConfig config)
     : view_(std::move(config.view)), window_(makeWindow(view_)), presenter_(window_, config.device.validate),
       render_(config.device, &Window::wake), loader_(loadOrder, &Window::wake),
       shaders_(std::move(config.shaders)) {
-    view_.settings = resolveSchedule(view_.settings, render_.device(), sourceOf(shaders_));
+    view_.settings = resolveSchedule(view_.settings, render_.device());
     if (!config.watched.empty())
         watcher_.emplace(config.watched, shaders_, decisiveKernels(view_.settings), &Window::wake);
+    view_.canBeHosted = render_.device().sharesMemory;
+    sayWhatTraces();
     ImGui::GetIO().FontGlobalScale = window_.textScale() / window_.pixelsPerPoint().y;
 }
 
@@ -97,6 +99,12 @@ void Viewer::tell(const std::string& text, bool isError) {
     else
         spdlog::info("{}", text);
     messages_.emplace_back(text, isError);
+}
+
+void Viewer::sayWhatTraces() {
+    const std::string why = whyNotHosted(view_.settings, render_.device(), sourceOf(shaders_));
+    if (!why.empty())
+        tell(why, false);
 }
 
 void Viewer::receive() {
@@ -157,6 +165,7 @@ void Viewer::receiveShaders() {
         tell(fmt::format("saved {}, changed: {}", fmt::join(change->files, ", "),
                          fmt::join(change->kernels, ", ")),
              false);
+        sayWhatTraces();
     }
 }
 

@@ -50,6 +50,7 @@ class Viewer {
     void inspect(const glm::vec2& at, Purpose purpose);
     void send();
     void tell(const std::string& text, bool isError);
+    void sayWhatTraces(); // where shaders keep the host from it
     void updateTitle();
     [[nodiscard]] double patience() const;
     [[nodiscard]] glm::vec2 points() const; // size of the window in screen coordinates

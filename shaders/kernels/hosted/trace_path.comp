@@ -1,6 +1,6 @@
 #version 460
-// One vertex of one path, told in full: what the schedule "hosted" does with it. The host traces its rays. A dispatch of no
-// records starts the path; another one takes the vertex where the ray has met the scene.
+// One vertex of one path, told in full: what the schedule "hosted" does with it, but for the rounding of kernels of a class. The
+// host traces its rays. A dispatch of no records starts the path; another one takes the vertex where the ray has met the scene.
 #include "scene/traced_vertex.glsl"
 #include "shared/bindings.h"
 

@@ -165,7 +165,7 @@ int RenderCommand::runWatching(RenderSession& session) const {
     std::shared_ptr<ShaderOverlay> next;
     const auto look = [&](std::chrono::milliseconds atMost) {
         const std::vector<std::string> changes = saves.wait(atMost);
-        next = changes.empty() ? nullptr : shaders_.reread(changes, *job.renderer, session.toneMapper());
+        next = changes.empty() ? nullptr : shaders_.reread(changes, session, job);
     };
     while (!guard.interrupted()) {
         {

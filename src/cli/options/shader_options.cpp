@@ -65,15 +65,12 @@ std::shared_ptr<ShaderOverlay> ShaderOptions::overlay() const {
 }
 
 std::shared_ptr<ShaderOverlay> ShaderOptions::reread(const std::vector<std::string>& changes,
-                                                     const Renderer& renderer,
-                                                     const ToneMapper* toneMapper) const {
+                                                     const RenderSession& session,
+                                                     const RenderJob& job) const {
     spdlog::info("saved: {}", fmt::join(changes, ", "));
     try {
         std::shared_ptr<ShaderOverlay> now = overlay();
-        const KernelSource source = sourceOf(now);
-        std::vector<std::string> names = renderer.changedKernels(source);
-        if (toneMapper != nullptr && toneMapper->isChanged(source))
-            names.emplace_back("tonemap");
+        const std::vector<std::string> names = session.changedKernels(job, sourceOf(now));
         if (!names.empty()) {
             spdlog::info("changed: {}", fmt::join(names, ", "));
             return now;

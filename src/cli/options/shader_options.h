@@ -37,11 +37,10 @@ class ShaderOptions {
     // Adds the files of the folder to those that no output may replace.
     void addFiles(InputFiles& inputs) const;
 
-    // An overlay of the folder once the files `changes` are saved; null unless they give the renderer, or the
-    // tone mapper if there is one, other kernels. Tells on stderr what changed, and what does not compile.
-    [[nodiscard]] std::shared_ptr<ShaderOverlay> reread(const std::vector<std::string>& changes,
-                                                        const Renderer& renderer,
-                                                        const ToneMapper* toneMapper = nullptr) const;
+    // An overlay of the folder once the files `changes` are saved; null unless they give the job other
+    // kernels. Tells on stderr what changed, and what does not compile.
+    [[nodiscard]] std::shared_ptr<ShaderOverlay>
+    reread(const std::vector<std::string>& changes, const RenderSession& session, const RenderJob& job) const;
 
   private:
     std::string folder_;
