@@ -47,13 +47,16 @@ Commands& Commands::operator=(Commands&& other) noexcept {
     std::swap(marked_, other.marked_);
     std::swap(isRunning_, other.isRunning_);
     std::swap(queries_, other.queries_);
+    std::swap(timing_, other.timing_);
     std::swap(stamps_, other.stamps_);
+    std::swap(submitted_, other.submitted_);
     std::swap(times_, other.times_);
     return *this;
 }
 
-void Commands::begin() {
+void Commands::begin(Timing timing) {
     wait();
+    timing_ = timing;
     checked("begin", "a command buffer", [&] {
         for (size_t i = 0; i < marked_.size(); ++i)
             marks_[i].reset();
@@ -63,17 +66,21 @@ void Commands::begin() {
     });
     stamps_.clear();
     marked_.clear();
-    if (*queries_)
+    if (*queries_ && timing_ == Timing::eachKernel)
         recorded(buffers_).resetQueryPool(*queries_, 0, kMaxStamps);
     stamp("");
 }
 
-void Commands::stamp(std::string_view name) {
-    if (!*queries_ || stamps_.size() == kMaxStamps)
+void Commands::stamp(std::string_view name, uint32_t groups) {
+    if (stamps_.size() == kMaxStamps)
         return;
-    recorded(buffers_).writeTimestamp(vk::PipelineStageFlagBits::eBottomOfPipe, *queries_,
-                                      static_cast<uint32_t>(stamps_.size()));
-    stamps_.emplace_back(name);
+    if (timing_ == Timing::eachKernel) {
+        if (!*queries_)
+            return;
+        recorded(buffers_).writeTimestamp(vk::PipelineStageFlagBits::eBottomOfPipe, *queries_,
+                                          static_cast<uint32_t>(stamps_.size()));
+    }
+    stamps_.push_back({std::string(name), groups});
 }
 
 // Timestamps would say it too, but lavapipe waits for the submission where it is asked for one.
@@ -113,7 +120,7 @@ void Commands::dispatch(const BoundKernel& kernel, uint32_t groups,
     recorded(buffers_).dispatch(groups, 1, 1);
     finishCommand();
     mark(kernel.kernel().name());
-    stamp(kernel.kernel().name());
+    stamp(kernel.kernel().name(), groups);
 }
 
 void Commands::dispatchIndirect(const BoundKernel& kernel, const Buffer& sizes, uint64_t offset,
@@ -122,7 +129,7 @@ void Commands::dispatchIndirect(const BoundKernel& kernel, const Buffer& sizes, 
     recorded(buffers_).dispatchIndirect(sizes.handle(), offset);
     finishCommand();
     mark(kernel.kernel().name());
-    stamp(kernel.kernel().name());
+    stamp(kernel.kernel().name(), 1);
 }
 
 void Commands::fill(const Buffer& buffer, uint32_t value) {
@@ -141,6 +148,7 @@ void Commands::submit() {
     checked("run", "a submission", [&] {
         buffers_.front().end();
         const vk::CommandBuffer commands = recorded(buffers_);
+        submitted_ = std::chrono::steady_clock::now();
         device_->queue().submit(vk::SubmitInfo({}, {}, commands), *fence_);
     });
     isRunning_ = true;
@@ -154,7 +162,7 @@ void Commands::wait() {
         while (!waitForFence())
             reportTimeout();
     });
-    collectTimes();
+    timing_ == Timing::eachKernel ? collectTimes() : shareOutTime();
 }
 
 void Commands::waitUntilIdle() const {
@@ -201,11 +209,26 @@ void Commands::collectTimes() {
     if (result != vk::Result::eSuccess)
         return;
     for (size_t i = 1; i < stamps_.size(); ++i) {
-        if (stamps_[i].empty())
+        if (stamps_[i].name.empty())
             continue;
-        KernelTime& time = times_[stamps_[i]];
+        KernelTime& time = times_[stamps_[i].name];
         time.seconds +=
             static_cast<double>(ticks[i] - ticks[i - 1]) * device_->limits().timestampNanoseconds * 1e-9;
+        ++time.dispatches;
+    }
+}
+
+void Commands::shareOutTime() {
+    const double seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - submitted_).count();
+    uint64_t allGroups = 0;
+    for (const Stamp& stamp : stamps_)
+        allGroups += stamp.groups;
+    for (const Stamp& stamp : stamps_) {
+        if (stamp.groups == 0)
+            continue;
+        KernelTime& time = times_[stamp.name];
+        time.seconds += seconds * stamp.groups / static_cast<double>(allGroups);
         ++time.dispatches;
     }
 }

@@ -1,6 +1,7 @@
 // Command buffers: kernels and fills recorded in order, submitted, waited for, and timed by name.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -24,6 +25,14 @@ struct KernelTime {
 };
 using KernelTimes = std::map<std::string, KernelTime, std::less<>>;
 
+// How a submission's kernels are timed.
+enum class Timing {
+    eachKernel, // by timestamps of the device
+    // By the host's clock for all, and shared out by their workgroups. lavapipe takes 0.1 ms for a timestamp,
+    // which is more than a small kernel takes.
+    together,
+};
+
 // Records and runs one command buffer again and again. Every recorded command sees the writes of the ones
 // before it.
 class Commands {
@@ -34,7 +43,7 @@ class Commands {
     Commands& operator=(Commands&& other) noexcept; // swaps: a command buffer must go before its pool
 
     // Starts recording anew, once what was submitted before is done.
-    void begin();
+    void begin(Timing timing = Timing::eachKernel);
     // Records `groups` workgroups along x; push constants must be as long as the kernel declares.
     void dispatch(const BoundKernel& kernel, uint32_t groups, std::span<const std::byte> pushConstants = {});
     // Records a dispatch whose workgroup counts are read from `sizes` (three uint32) at `offset` bytes.
@@ -54,19 +63,21 @@ class Commands {
         wait();
     }
 
-    // Sums over all submissions so far; empty on a queue without timestamps.
+    // Sums over all submissions so far. A queue without timestamps has no times of submissions that ask for
+    // them.
     [[nodiscard]] const KernelTimes& times() const { return times_; }
 
   private:
     void prepareDispatch(const BoundKernel& kernel, std::span<const std::byte> pushConstants);
     void finishCommand();
-    void stamp(std::string_view name);
+    void stamp(std::string_view name, uint32_t groups = 0);
     void mark(const std::string& kernel);
     void waitUntilIdle() const;
     [[nodiscard]] bool waitForFence() const;
     void reportTimeout() const;
     [[nodiscard]] std::string unfinishedKernel() const;
     void collectTimes();
+    void shareOutTime();
 
     Device* device_;
     vk::raii::CommandPool pool_ = nullptr;
@@ -76,7 +87,14 @@ class Commands {
     std::vector<std::string> marked_;    // names of the kernels of these marks
     bool isRunning_ = false;
     vk::raii::QueryPool queries_ = nullptr;
-    std::vector<std::string> stamps_; // the name whose work ends at timestamp i; empty: not a kernel
+    Timing timing_ = Timing::eachKernel;
+    // What ends at timestamp i; without a name: not a kernel.
+    struct Stamp {
+        std::string name;
+        uint32_t groups = 0;
+    };
+    std::vector<Stamp> stamps_;
+    std::chrono::steady_clock::time_point submitted_;
     KernelTimes times_;
 };
 

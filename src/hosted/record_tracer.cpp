@@ -12,7 +12,8 @@ namespace lavalight {
 namespace {
 
 constexpr uint32_t kRecordsPerChunk = 1024;
-constexpr uint8_t kEnded = 0xff; // in the place of a region
+constexpr size_t kChunksSortedAlone = 4; // in the time that it takes to wake a thread
+constexpr uint8_t kEnded = 0xff;         // in the place of a region
 
 glm::vec3 xyz(const glm::uvec4& words) {
     return glm::uintBitsToFloat(glm::uvec3(words));
@@ -74,7 +75,11 @@ RecordTracer::Regions RecordTracer::advance(const RecordBuffers& buffers, uint32
             place += chunk.counts[region];
             totals[region] += chunk.counts[region];
         }
-    forEachInParallel(chunks.size(), [&](size_t i) { sort(buffers, chunks[i]); });
+    if (chunks.size() <= kChunksSortedAlone)
+        for (const Chunk& chunk : chunks)
+            sort(buffers, chunk);
+    else
+        forEachInParallel(chunks.size(), [&](size_t i) { sort(buffers, chunks[i]); });
     return totals;
 }
 

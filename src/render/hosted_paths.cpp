@@ -9,6 +9,13 @@
 namespace lavalight {
 namespace {
 
+// Fewer records than this are shaded within a few timestamps' time.
+constexpr uint32_t kTimedRecords = 1u << 15;
+
+gpu::Timing timingOf(uint32_t records) {
+    return records < kTimedRecords ? gpu::Timing::together : gpu::Timing::eachKernel;
+}
+
 gpu::Buffer makeRecords(gpu::Device& device, const char* name, uint32_t planes, uint32_t waveSize,
                         gpu::BufferUse use) {
     return {device, name, uint64_t{planes} * planeStride(waveSize) * sizeof(glm::uvec4), use};
@@ -46,7 +53,7 @@ void HostedPaths::renderWave(const Transport& transport, size_t bandIndex, WaveR
         const RecordTracer::Regions regions = trace(records, range.bounce);
         records = shade(transport, band, range, regions);
     }
-    commands_.begin();
+    commands_.begin(timingOf(range.pixelCount));
     commands_.dispatch(band[transport.sink.kernel], groupsFor(transport.sink.over, range), pushed(range));
     commands_.submitAndWait();
 }
@@ -73,7 +80,7 @@ gpu::KernelTimes HostedPaths::kernelTimes() const {
 void HostedPaths::start(const Transport& transport, const BoundBand& band, WaveRange range) {
     range.firstRecord = 0;
     range.recordCount = range.pixelCount * range.sampleCount;
-    commands_.begin();
+    commands_.begin(timingOf(range.recordCount));
     commands_.dispatch(band[transport.hosted.camera], groupsFor(range.recordCount), pushed(range));
     commands_.submitAndWait();
     for (Path& path : buffers_.paths.first(range.recordCount))
@@ -86,7 +93,7 @@ uint32_t HostedPaths::shade(const Transport& transport, const BoundBand& band, W
     const uint32_t records = std::accumulate(regions.begin(), regions.end(), 0u);
     if (records == 0)
         return 0;
-    commands_.begin();
+    commands_.begin(timingOf(records));
     range.firstRecord = 0;
     for (size_t i = 0; i <= classes_.size(); ++i) {
         range.recordCount = regions[i];
