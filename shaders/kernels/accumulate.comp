@@ -8,6 +8,8 @@ layout(local_size_x = 64) in;
 
 // What the sample in a slot has of a plane: a line each, and the colour last. Components that the plane lacks are 0.
 vec3 valueIn(uint plane, uint slot) {
+    if (plane == kCoveragePlane)
+        return vec3(paths[slot].etaScale == kUncovered ? 0.0 : 1.0, 0.0, 0.0);
     return paths[slot].radiance;
 }
 

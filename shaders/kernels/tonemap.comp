@@ -1,5 +1,6 @@
 #version 460
-// A plane of the film as a display shows it, one invocation a pixel: means, exposed, mapped, encoded, in 8 bits a channel.
+// A plane of the film as a display shows it, one invocation a pixel: means, exposed, mapped, encoded, in 8 bits a channel. Alpha
+// is straight: a colour is divided by its coverage before the curve.
 #include "lib/film/fixed_point.glsl"
 #include "lib/film/tone_map.glsl"
 #include "shared/bindings.h"
@@ -22,6 +23,11 @@ float sumOf(uint component, uint pixel) {
                                       : fromFixed(low, kSumLowestExponent);
 }
 
+float coverageSum(uint pixel) {
+    const uint first = range.coverageWord;
+    return fromFixed(uvec3(wordOf(first, pixel), wordOf(first + 1u, pixel), wordOf(first + 2u, pixel)), kSumLowestExponent);
+}
+
 // A single component is grey; a second stands beside no third.
 vec3 sums(uint pixel) {
     const float x = sumOf(0u, pixel);
@@ -35,8 +41,15 @@ void main() {
     if (pixel >= range.bandPixels)
         return;
     const uint count = wordOf(range.countWord, pixel);
-    const vec3 mean = max(sums(pixel) / float(max(count, 1u)), 0.0); // black without samples
-    const vec3 signal = encodeSrgb(toneMap(kToneCurve, range.scale * mean));
-    const uvec3 code = uvec3(255.0 * signal + 0.5);
-    display[pixel] = code.r | code.g << 8u | code.b << 16u | 0xff000000u;
+    const float samples = float(max(count, 1u));
+    float alpha = range.coverageWord > 0u ? min(coverageSum(pixel) / samples, 1.0) : 1.0;
+    const vec3 mean = max(sums(pixel) / samples, 0.0); // black without samples
+    const vec3 straight = alpha > 0.0 ? mean / alpha : vec3(0.0);
+    vec3 shown = toneMap(kToneCurve, range.scale * straight);
+    if (range.hasBackdrop != 0u) {
+        shown = mix(range.backdrop, shown, alpha);
+        alpha = 1.0;
+    }
+    const uvec4 code = uvec4(255.0 * vec4(encodeSrgb(shown), alpha) + 0.5);
+    display[pixel] = code.r | code.g << 8u | code.b << 16u | code.a << 24u;
 }

@@ -25,6 +25,8 @@ NextRays nothingNext() {
 
 // What a ray that meets nothing finds, after `bounce` vertices.
 vec3 escape(Ray ray, uint bounce, Path path) {
+    if (sceneHas(kFeatureBackground) && bounce == 0u)
+        return path.throughput * frame.background;
     const vec3 found =
         path.throughput * environmentRadiance(frame, ray.direction) * foundLightWeight(path.bsdfPdf, missLightPdf(ray));
     return clamped(found, bounce);
@@ -85,6 +87,8 @@ NextRays scatter(Hit hit, Ray ray, uint slot, uint bounce, inout Path path) {
     path.bsdfPdf = pdfOfFinding(ray, path.bsdfPdf);
     if (hit.t == kInfinity) {
         path.radiance += escape(ray, bounce, path);
+        if (bounce == 0u)
+            path.etaScale = kUncovered;
         return nothingNext();
     }
     return scatterAt(hit, ray, slot, bounce, path);

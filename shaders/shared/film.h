@@ -41,12 +41,14 @@ SHARED_FUNCTION uint wordsOf(FilmPlane plane) {
 
 // Numbers of the rows below.
 SHARED_CONST uint kColorPlane = 0u;
+SHARED_CONST uint kCoveragePlane = 1u; // 1 where the camera ray met something, 0 elsewhere
 
 // All planes that there are, a row each in the order of their numbers: number, name of the layer, channels in EXR files,
 // components, isSigned, hasSquares. A film has the colour and those that were asked for, in this order;
 // shaders/kernels/accumulate.comp says what fills them.
 #define FILM_PLANES(PLANE) \
-    PLANE(kColorPlane, "color", "R,G,B", 3u, 0u, 1u)
+    PLANE(kColorPlane, "color", "R,G,B", 3u, 0u, 1u) \
+    PLANE(kCoveragePlane, "coverage", "A", 1u, 0u, 0u)
 
 #define FILM_PLANE_SHAPE(number, name, channels, components, isSigned, hasSquares) {components, isSigned, hasSquares},
 #define FILM_PLANE_COUNT(number, name, channels, components, isSigned, hasSquares) + 1u

@@ -38,8 +38,10 @@ struct FrameParameters {
     vec3 startReference; // where camera rays start, or near there
     uint startInner;
     uint startNotes;
-    uint startsVary; // kFeatureStartsVary is wanted
+    uint startsVary;    // kFeatureStartsVary is wanted
+    uint hasBackground; // kFeatureBackground is wanted
     uint unused1;
+    vec3 background; // radiance
     uint unused2;
 };
 

@@ -9,12 +9,18 @@ LAVALIGHT_SHARED_BEGIN
 
 // Push constants.
 struct ToneRange {
+    vec3 backdrop;    // linear display values behind what is not covered, with hasBackdrop
+    uint hasBackdrop; // 0: pixels keep their alpha
     uint bandPixels; // pixels of the film at hand
     uint firstPixel; // first pixel of this dispatch, in the band
     float scale;     // factor of radiance: 2^exposure
     uint countWord;  // index of the word plane that counts samples
     uint firstWord;  // index of the first word plane of the plane that is shown
+    uint coverageWord; // the same of the plane of coverage, by which the colour is associated; 0: all is covered
     FilmPlane plane;
+    uint unused0;
+    uint unused1;
+    uint unused2;
 };
 
 // A specialisation constant: the curve picks code.

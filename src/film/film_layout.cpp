@@ -114,6 +114,11 @@ FilmLayout::FilmLayout(std::vector<LayerPlane> planes) : planes_(std::move(plane
     }
 }
 
+std::optional<size_t> FilmLayout::find(uint32_t row) const {
+    const auto found = std::find(planes_.begin(), planes_.end(), allPlanes().at(row));
+    return found == planes_.end() ? std::nullopt : std::optional<size_t>(found - planes_.begin());
+}
+
 std::vector<FilmNumber> FilmLayout::numbers() const {
     std::vector<FilmNumber> numbers;
     uint32_t word = 0;

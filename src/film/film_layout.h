@@ -38,6 +38,8 @@ class FilmLayout {
     explicit FilmLayout(std::vector<LayerPlane> planes);
 
     [[nodiscard]] std::span<const LayerPlane> planes() const { return planes_; }
+    // Where the plane of a row of FILM_PLANES is among these, if it is.
+    [[nodiscard]] std::optional<size_t> find(uint32_t row) const;
     // The index of the first word of a plane, of the word that counts samples, and the number of all words.
     [[nodiscard]] uint32_t firstWord(size_t plane) const { return firstWords_[plane]; }
     [[nodiscard]] uint32_t countWord() const { return firstWords_.back(); }

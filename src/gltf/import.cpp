@@ -160,10 +160,9 @@ Scene buildScene(const GltfDocument& document, const ImportOptions& options) {
     if (!scene.hasOwnCamera)
         scene.cameras.push_back(framingCamera(scene.bounds));
     scene.punctualLights = readPunctualLights(document, nodes.shown, notes);
-    if (!options.bringsLight && !hasEmission(scene) && !hasPunctualLight(scene)) {
+    scene.hasOwnLight = hasEmission(scene) || hasPunctualLight(scene);
+    if (!scene.hasOwnLight)
         scene.environment = glm::vec3(1.0f);
-        notes.add("the scene has no light: a constant white environment stands in");
-    }
     scene.warnings = notes.lines();
     return scene;
 }

@@ -18,7 +18,6 @@ struct ImportOptions {
     std::optional<glm::dvec3> viewpoint{};
     std::string camera{};
     bool allowsExternal = false; // the file may refer to files outside its folder
-    bool bringsLight = false;    // the caller lights the scene: no white environment stands in
 };
 
 } // namespace lavalight

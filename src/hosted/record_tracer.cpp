@@ -139,7 +139,9 @@ uint8_t RecordTracer::extend(const RecordBuffers& buffers, uint32_t bounce, Host
     hits_[record] = {glm::floatBitsToUint(hit.t), hit.record, glm::floatBitsToUint(hit.barycentrics)};
     if (hit.t < std::numeric_limits<float>::infinity())
         return classOfMaterials_[rays.materialOf(hit)];
-    if ((scene_.features & (kFeatureEnvironment | kFeatureEnvironmentMap)) != 0)
+    if (bounce == 0)
+        buffers.paths[buffers.slot(record)].etaScale = kUncovered;
+    if ((scene_.features & (kFeatureEnvironment | kFeatureEnvironmentMap | kFeatureBackground)) != 0)
         return escapes_;
     // A throughput of NaN or infinity times the darkness: the film drops the sample.
     buffers.radiance(record) += 0.0f * xyz(buffers.at(kPlaneThroughput, record));

@@ -43,10 +43,10 @@ std::vector<KernelVariant> kernelVariants(std::span<const Phase> phases, Schedul
 }
 
 EstimatorKernels::EstimatorKernels(gpu::Device& device, std::vector<KernelVariant> variants,
-                                   const EstimatorSettings& settings, SceneFeatures features,
+                                   const EstimatorSettings& settings, SceneFeatures features, uint32_t planes,
                                    const KernelSource& source)
-    : settings_(settings), features_(features), constants_(estimatorConstants(settings, features)),
-      variants_(std::move(variants)) {
+    : settings_(settings), features_(features), planes_(planes),
+      constants_(estimatorConstants(settings, features)), variants_(std::move(variants)) {
     const auto start = std::chrono::steady_clock::now();
     std::vector<const gpu::Kernel*> made;
     for (const KernelVariant& variant : variants_)
@@ -61,6 +61,7 @@ gpu::Kernel EstimatorKernels::compile(gpu::Device& device, const KernelVariant& 
     std::vector<gpu::SpecialisationConstant> constants =
         estimatorConstants(settings_, features_ & ~variant.without);
     constants.push_back({CONSTANT_RECORD_PLANES, recordPlanes(features_)});
+    constants.push_back({CONSTANT_FILM_PLANES, planes_});
     return {device, source(variant.kernel), constants};
 }
 
@@ -95,8 +96,8 @@ void EstimatorKernels::replace(KernelMap compiled) noexcept {
 }
 
 bool EstimatorKernels::serve(std::span<const KernelVariant> variants, const EstimatorSettings& settings,
-                             SceneFeatures features) const {
-    return std::ranges::equal(variants, variants_) && features == features_ &&
+                             SceneFeatures features, uint32_t planes) const {
+    return std::ranges::equal(variants, variants_) && features == features_ && planes == planes_ &&
            estimatorConstants(settings, features) == constants_;
 }
 

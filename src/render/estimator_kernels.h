@@ -42,9 +42,10 @@ using KernelMap = std::map<std::string, gpu::Kernel, std::less<>>;
 // Kernels of a render, specialised, and compiled by the driver. No scene need be uploaded yet.
 class EstimatorKernels {
   public:
-    // `variants`: kernelVariants() of the render's phases.
+    // `variants`: kernelVariants() of the render's phases; `planes`: filmPlanes() of its settings.
     EstimatorKernels(gpu::Device& device, std::vector<KernelVariant> variants,
-                     const EstimatorSettings& settings, SceneFeatures features, const KernelSource& source);
+                     const EstimatorSettings& settings, SceneFeatures features, uint32_t planes,
+                     const KernelSource& source);
 
     // Names of the kernels whose code `source` changes. Throws Error as `source` does.
     [[nodiscard]] std::vector<std::string> changed(const KernelSource& source) const;
@@ -58,7 +59,7 @@ class EstimatorKernels {
     [[nodiscard]] const KernelMap& all() const { return kernels_; }
     // Whether they are what the constructor would make of these.
     [[nodiscard]] bool serve(std::span<const KernelVariant> variants, const EstimatorSettings& settings,
-                             SceneFeatures features) const;
+                             SceneFeatures features, uint32_t planes) const;
     // For another render, which they cost no time.
     [[nodiscard]] EstimatorKernels handOn() && {
         seconds_ = 0.0;
@@ -75,6 +76,7 @@ class EstimatorKernels {
 
     EstimatorSettings settings_;
     SceneFeatures features_;
+    uint32_t planes_;
     std::vector<gpu::SpecialisationConstant> constants_; // of all features
     std::vector<KernelVariant> variants_;
     KernelMap kernels_;

@@ -80,9 +80,10 @@ void setStart(const StartingSolids& starting, FrameParameters& frame) {
     frame.startsVary = starting.vary ? 1u : 0u;
 }
 
-// What the camera adds to the features of the scene.
+// What camera and background add to the features of the scene.
 SceneFeatures viewFeatures(const Camera& camera, const FrameParameters& frame) {
-    return cameraFeatures(camera) | (frame.startsVary != 0 ? kFeatureStartsVary : 0u);
+    return cameraFeatures(camera) | (frame.startsVary != 0 ? kFeatureStartsVary : 0u) |
+           (frame.hasBackground != 0 ? kFeatureBackground : 0u);
 }
 
 } // namespace
@@ -113,6 +114,9 @@ FrameParameters makeFrame(const Scene& scene, const Camera& camera, const Render
     frame.rouletteProbability = settings.estimator.rouletteProbability;
     frame.clampIndirect = settings.estimator.clampIndirect;
     frame.waveSize = settings.work.waveSize;
+    frame.hasBackground = settings.background.kind != Background::environment ? 1u : 0u;
+    if (settings.background.kind == Background::constant)
+        frame.background = settings.background.radiance;
     setStart(startingSolids(scene, camera, view, clip.nearest), frame);
     return frame;
 }
@@ -144,7 +148,7 @@ bool keepsLights(const RenderSettings& a, const RenderSettings& b) {
     return a.estimator.lightSelection == b.estimator.lightSelection &&
            (a.estimator.mis == Mis::off) == (b.estimator.mis == Mis::off) &&
            a.lighting.constant == b.lighting.constant && a.lighting.mapFile == b.lighting.mapFile &&
-           a.lighting.intensity == b.lighting.intensity;
+           a.lighting.procedural == b.lighting.procedural && a.lighting.intensity == b.lighting.intensity;
 }
 
 // The slow work before a render can start: the BVH is built on the host while the driver compiles the
@@ -194,7 +198,7 @@ Renderer::Renderer(gpu::Device& device, const Scene& scene, const Camera& camera
           [&](const RenderSettings& settings) {
               const auto make = [&](SceneFeatures features, const MaterialClasses& classes) {
                   return EstimatorKernels(device, variantsFor(settings, classes), settings.estimator,
-                                          features, source);
+                                          features, filmPlanes(settings), source);
               };
               return Setup::make(scene, camera, settings, make);
           },
@@ -207,9 +211,11 @@ Renderer::Renderer(gpu::Device& device, const Scene& scene, const Camera& camera
           [&](const RenderSettings& settings) {
               const auto make = [&](SceneFeatures features, const MaterialClasses& classes) {
                   std::vector<KernelVariant> variants = variantsFor(settings, classes);
-                  if (earlier.serve(variants, settings.estimator, features))
+                  const uint32_t planes = filmPlanes(settings);
+                  if (earlier.serve(variants, settings.estimator, features, planes))
                       return std::move(earlier);
-                  return EstimatorKernels(device, std::move(variants), settings.estimator, features, source);
+                  return EstimatorKernels(device, std::move(variants), settings.estimator, features, planes,
+                                          source);
               };
               return Setup::make(scene, camera, settings, make);
           },
@@ -223,8 +229,8 @@ Renderer::Renderer(gpu::Device& device, const RenderSettings& settings, Setup se
                    const KernelSource& source)
     : device_(&device), settings_(settings), frame_(setup.frame), sceneFeatures_(setup.scene.features),
       features_(setup.features), classes_(std::move(setup.classes)), kernels_(std::move(setup.kernels)),
-      scene_(device, setup.scene, source),
-      film_(device, settings.image.width, settings.image.height, settings.work.bandRows),
+      scene_(device, setup.scene, source), film_(device, settings.image.width, settings.image.height,
+                                                 settings.work.bandRows, layoutOf(filmPlanes(settings))),
       walk_(walkThrough(settings, film_)), waves_(makeWaves(Fresh{settings_, frame_, features_})) {
     settings_.estimator.lightSelection = setup.lightSelection;
 }
@@ -267,12 +273,14 @@ void Renderer::restart(const Scene& scene, const Camera& camera, const RenderSet
     fresh.features = sceneFeatures_ | viewFeatures(camera, fresh.frame);
     const EstimatorSettings& estimator = fresh.settings.estimator;
     std::vector<KernelVariant> variants = variantsFor(fresh.settings, classes_);
-    if (!kernels_.serve(variants, estimator, fresh.features))
-        fresh.kernels.emplace(*device_, std::move(variants), estimator, fresh.features, source);
+    const uint32_t planes = filmPlanes(fresh.settings);
+    if (!kernels_.serve(variants, estimator, fresh.features, planes))
+        fresh.kernels.emplace(*device_, std::move(variants), estimator, fresh.features, planes, source);
     compileChanged(fresh, source);
-    if (fresh.settings.image.width != film_.width() || fresh.settings.image.height != film_.height())
+    if (fresh.settings.image.width != film_.width() || fresh.settings.image.height != film_.height() ||
+        planes != filmPlanes(settings_))
         fresh.film.emplace(*device_, fresh.settings.image.width, fresh.settings.image.height,
-                           fresh.settings.work.bandRows, film_.layout());
+                           fresh.settings.work.bandRows, layoutOf(planes));
     startAnew(std::move(fresh));
 }
 

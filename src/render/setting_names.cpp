@@ -9,10 +9,20 @@ constexpr std::array<SettingName<Schedule>, 4> kSchedules{{{"auto", Schedule::au
                                                            {"fused", Schedule::fused},
                                                            {"wavefront", Schedule::wavefront},
                                                            {"hosted", Schedule::hosted}}};
-constexpr std::array<SettingName<ToneCurve>, 4> kToneCurves{{{"linear", ToneCurve::linear},
-                                                             {"neutral", ToneCurve::neutral},
+constexpr std::array<SettingName<ToneCurve>, 4> kToneCurves{{{"neutral", ToneCurve::neutral},
+                                                             {"linear", ToneCurve::linear},
                                                              {"agx", ToneCurve::agx},
                                                              {"aces", ToneCurve::aces}}};
+constexpr std::array<SettingName<ProceduralEnvironment>, 2> kEnvironments{
+    {{"none", ProceduralEnvironment::none}, {"studio", ProceduralEnvironment::studio}}};
+constexpr std::array<SettingName<NamedView>, 8> kViews{{{"none", NamedView::none},
+                                                        {"front", NamedView::front},
+                                                        {"back", NamedView::back},
+                                                        {"left", NamedView::left},
+                                                        {"right", NamedView::right},
+                                                        {"top", NamedView::top},
+                                                        {"bottom", NamedView::bottom},
+                                                        {"three-quarter", NamedView::threeQuarter}}};
 
 } // namespace
 
@@ -23,6 +33,14 @@ std::span<const SettingName<Schedule>> settingNames() {
 template <>
 std::span<const SettingName<ToneCurve>> settingNames() {
     return kToneCurves;
+}
+template <>
+std::span<const SettingName<ProceduralEnvironment>> settingNames() {
+    return kEnvironments;
+}
+template <>
+std::span<const SettingName<NamedView>> settingNames() {
+    return kViews;
 }
 
 } // namespace lavalight

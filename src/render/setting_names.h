@@ -7,6 +7,7 @@
 
 #include "render/settings.h"
 #include "render/tone_settings.h"
+#include "scene/framing_camera.h"
 
 namespace lavalight {
 
@@ -24,6 +25,10 @@ template <>
 std::span<const SettingName<Schedule>> settingNames();
 template <>
 std::span<const SettingName<ToneCurve>> settingNames();
+template <>
+std::span<const SettingName<ProceduralEnvironment>> settingNames();
+template <>
+std::span<const SettingName<NamedView>> settingNames();
 
 template <typename Value>
 [[nodiscard]] std::string_view nameOf(Value value) {

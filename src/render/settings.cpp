@@ -9,6 +9,7 @@
 #include "render/setting_names.h"
 #include "render/setting_rules.h"
 #include "render/setting_text.h"
+#include "shared/film.h"
 
 namespace lavalight {
 namespace {
@@ -16,6 +17,10 @@ namespace {
 void requireRange(const char* option, double value, double least, double most) {
     if (!(value >= least && value <= most))
         throw UsageError(fmt::format("{}: {} is outside the range {} to {}", option, value, least, most));
+}
+
+std::string vectorText(const glm::vec3& v) {
+    return fmt::format("{},{},{}", v.x, v.y, v.z);
 }
 
 } // namespace
@@ -37,6 +42,11 @@ void checkSettings(const RenderSettings& settings) {
     requireAgreement(settings.estimator);
 }
 
+uint32_t filmPlanes(const RenderSettings& settings) {
+    const bool hasCoverage = settings.background.kind == Background::transparent;
+    return 1u << kColorPlane | (hasCoverage ? 1u << kCoveragePlane : 0u);
+}
+
 OptionPairs describe(const RenderSettings& settings) {
     OptionPairs pairs;
     const auto add = [&](std::string_view option, auto value) {
@@ -52,13 +62,18 @@ OptionPairs describe(const RenderSettings& settings) {
         if (row.decidesBits)
             add(row.name, textOf(row, settings.estimator));
     if (settings.lighting.constant)
-        add("env", fmt::format("{},{},{}", settings.lighting.constant->x, settings.lighting.constant->y,
-                               settings.lighting.constant->z));
-    if (!settings.lighting.mapFile.empty()) {
+        add("env", vectorText(*settings.lighting.constant));
+    if (!settings.lighting.mapFile.empty())
         add("env", settings.lighting.mapFile);
+    if (settings.lighting.procedural != ProceduralEnvironment::none)
+        add("env", nameOf(settings.lighting.procedural));
+    if (settings.lighting.rotation != 0.0f || !settings.lighting.mapFile.empty())
         add("env-rotation", settings.lighting.rotation);
-    }
     add("env-intensity", settings.lighting.intensity);
+    if (settings.background.kind == Background::transparent)
+        add("background", "transparent");
+    if (settings.background.kind == Background::constant)
+        add("background", vectorText(settings.background.radiance));
     if (!settings.provenance.changedShaders.empty())
         add("shaders", fmt::format("{}", fmt::join(settings.provenance.changedShaders, ",")));
     pairs.insert(pairs.end(), settings.provenance.cameraOptions.begin(),

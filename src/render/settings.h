@@ -49,13 +49,39 @@ struct WorkSettings {
     bool operator==(const WorkSettings&) const = default;
 };
 
-// What shines where nothing is hit.
+// Environments that are computed.
+enum class ProceduralEnvironment {
+    none,
+    studio // makeStudio()
+};
+
+// What shines where nothing is hit. At most one of the first three says something.
 struct LightingSettings {
     std::optional<glm::vec3> constant; // radiance that replaces the scene's environment
     std::string mapFile;               // where Scene::environmentMap came from; empty: nowhere
-    float rotation = 0.0f;             // turn of the map about +Y, degrees, counter-clockwise seen from above
-    float intensity = 1.0f;            // multiplies the environment, whatever it is
+    ProceduralEnvironment procedural = ProceduralEnvironment::none;
+    float rotation = 0.0f;  // turn of the map about +Y, degrees, counter-clockwise seen from above
+    float intensity = 1.0f; // multiplies the environment, whatever it is
     bool operator==(const LightingSettings&) const = default;
+};
+
+// Whether the settings bring light of their own.
+[[nodiscard]] inline bool bringsLight(const LightingSettings& lighting) {
+    return lighting.constant.has_value() || !lighting.mapFile.empty() ||
+           lighting.procedural != ProceduralEnvironment::none;
+}
+
+// What camera rays see that meet nothing.
+enum class Background {
+    environment, // what shines from there
+    transparent, // nothing: the film has a plane of coverage, and colour is associated (premultiplied)
+    constant
+};
+
+struct BackgroundSettings {
+    Background kind = Background::environment;
+    glm::vec3 radiance{0.0f}; // of Background::constant
+    bool operator==(const BackgroundSettings&) const = default;
 };
 
 // Where the render's inputs came from: for the record alone.
@@ -72,9 +98,13 @@ struct RenderSettings {
     StopRule stop;
     WorkSettings work;
     LightingSettings lighting;
+    BackgroundSettings background;
     Provenance provenance;
     bool operator==(const RenderSettings&) const = default;
 };
+
+// The planes of the render's film: bit i for row i of FILM_PLANES (shaders/shared/film.h).
+[[nodiscard]] uint32_t filmPlanes(const RenderSettings& settings);
 
 constexpr uint32_t kMaxBounceLimit = 1024; // counters of every bounce are kept for the whole wave
 

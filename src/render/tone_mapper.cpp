@@ -20,6 +20,12 @@ float scaleOf(float exposureStops) {
     return std::min(std::exp2(exposureStops), std::numeric_limits<float>::max());
 }
 
+// 0: there is no such plane; the colour has the first word.
+uint32_t coverageWordOf(const FilmLayout& layout) {
+    const std::optional<size_t> plane = layout.find(kCoveragePlane);
+    return plane ? layout.firstWord(*plane) : 0;
+}
+
 } // namespace
 
 ToneMapper::ToneMapper(gpu::Device& device, const KernelSource& source)
@@ -36,12 +42,15 @@ ToneMapper::ToneMapper(gpu::Device& device, const KernelSource& source)
 
 std::vector<uint32_t> ToneMapper::map(const Film& film, const ToneSettings& tone, size_t plane) {
     const FilmLayout& layout = film.layout();
-    const ToneRange range{0,
-                          0,
-                          scaleOf(tone.exposure),
-                          layout.countWord(),
-                          layout.firstWord(plane),
-                          layout.planes()[plane].shape};
+    ToneRange range{};
+    range.scale = scaleOf(tone.exposure);
+    range.countWord = layout.countWord();
+    range.firstWord = layout.firstWord(plane);
+    range.plane = layout.planes()[plane].shape;
+    range.backdrop = tone.backdrop.value_or(glm::vec3(0.0f));
+    range.hasBackdrop = tone.backdrop ? 1u : 0u;
+    if (plane == kColorPlane)
+        range.coverageWord = coverageWordOf(layout);
     std::vector<uint32_t> pixels(size_t{film.width()} * film.height());
     for (const FilmBand& band : film.bands()) {
         const size_t first = size_t{band.firstRow} * film.width();

@@ -23,8 +23,9 @@ class ToneMapper {
     // Compiles the kernel for every curve. The device must outlive the mapper. Throws Error as `source` does.
     explicit ToneMapper(gpu::Device& device, const KernelSource& source = embeddedKernel);
 
-    // sRGB pixels of one of the film's planes, the colour as a rule; rows from the top, each R, G, B, 255
-    // from its lowest byte up. Pixels without samples are black, and so is what is negative. Device memory is
+    // sRGB pixels of one of the film's planes, the colour as a rule; rows from the top, each R, G, B
+    // and alpha from its lowest byte up. Alpha is straight, and 255 where the film has no plane of coverage,
+    // or the tone a backdrop. Pixels without samples are black, and so is what is negative. Device memory is
     // kept from call to call, as much as the largest band so far took. Not while a submission writes the
     // film.
     [[nodiscard]] std::vector<uint32_t> map(const Film& film, const ToneSettings& tone,

@@ -2,6 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+
+#include <glm/glm.hpp>
 
 #include "shared/tone.h"
 
@@ -16,8 +19,11 @@ enum class ToneCurve : uint32_t {
 };
 
 struct ToneSettings {
-    ToneCurve curve = ToneCurve::linear;
+    ToneCurve curve = ToneCurve::neutral;
     float exposure = 0.0f; // stops: radiance is multiplied by 2^exposure before the curve
+    // Linear display values behind what a film's plane of coverage leaves open; none: pixels keep their
+    // alpha.
+    std::optional<glm::vec3> backdrop{};
     bool operator==(const ToneSettings&) const = default;
 };
 

@@ -147,7 +147,7 @@ struct Camera {
 // Radiance from all directions, as an equirectangular picture: the middle of its top row is +Y, the middle of
 // the picture is +X, and +Z lies a quarter of its width to the right of that.
 struct EnvironmentMap {
-    std::string source;     // file
+    std::string source;     // file, or the name of a procedural one
     Image image;            // finite, not negative
     uint64_t badTexels = 0; // texels that were infinite, NaN or negative, and had to be changed
 };
@@ -217,7 +217,9 @@ struct Scene {
     bool hasOwnCamera = true;    // false: it is the stand-in, which moves with what it frames
     std::vector<PunctualLight> punctualLights;
     std::vector<Animation> animations;
-    glm::vec3 environment{0.0f};                  // constant radiance from every direction that hits nothing
+    bool hasOwnLight = true;      // false: its environment is white, until a caller brings light
+    bool hasStandInLight = false; // that the caller brought unasked; it enters the bias ledger
+    glm::vec3 environment{0.0f};  // constant radiance from every direction that hits nothing
     std::optional<EnvironmentMap> environmentMap; // instead of it
     Bounds bounds;
     std::vector<Solid> solids;            // findSolids() fills this and the next; the smallest bounds first

@@ -59,10 +59,23 @@ std::vector<std::string> builtinNames() {
     return names;
 }
 
+bool isBuiltin(const std::string& name) {
+    const std::span<const EmbeddedFile> files = builtin::files();
+    const bool isFlat = name.ends_with(kFlatSuffix);
+    return std::any_of(files.begin(), files.end(),
+                       [&](const auto& file) { return sceneName(file) == name; }) ||
+           countAfter("dense-",
+                      std::string_view(name).substr(0, name.size() - (isFlat ? kFlatSuffix.size() : 0))) ||
+           countAfter("lamps-", name);
+}
+
 Scene loadScene(const std::string& nameOrPath, const ImportOptions& options) {
     for (const EmbeddedFile& file : builtin::files()) {
-        if (sceneName(file) == nameOrPath)
-            return importGltf(nameOrPath, file.bytes, options);
+        if (sceneName(file) == nameOrPath) {
+            Scene scene = importGltf(nameOrPath, file.bytes, options);
+            scene.hasOwnLight = true; // the furnace's white surroundings are its own
+            return scene;
+        }
     }
     const bool isFlat = nameOrPath.ends_with(kFlatSuffix);
     const std::string_view smoothName(nameOrPath.data(),

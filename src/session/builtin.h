@@ -13,6 +13,9 @@ namespace lavalight {
 // number of triangles, "lamps-N" of lights.
 [[nodiscard]] std::vector<std::string> builtinNames();
 
+// Whether a scene of that name is built in.
+[[nodiscard]] bool isBuiltin(const std::string& name);
+
 // A built-in scene by its name, else the .gltf or .glb file of that path. Throws Error; UsageError
 // for options that ask for what the scene does not have.
 [[nodiscard]] Scene loadScene(const std::string& nameOrPath, const ImportOptions& options = {});

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/named.h"
+#include "render/setting_names.h"
 #include "scene/look_at.h"
 #include "scene/world_position.h"
 
@@ -46,6 +47,22 @@ void aim(Camera& camera, const Scene& scene, const CameraChoice& choice) {
                        : "--up: it must not be 0,0,0 or lie along the direction of view");
     camera = *aimed;
     camera.focusDistance = glm::dot(at - from, camera.forward);
+}
+
+Camera frameView(const Scene& scene, const CameraChoice& choice, float aspect) {
+    if (!choice.name.empty() || choice.lookFrom || choice.panorama)
+        throw UsageError(
+            "--view frames the scene with a camera of its own; give it without --camera, --look-from and "
+            "--panorama");
+    const bool isVertical = choice.view == NamedView::top || choice.view == NamedView::bottom;
+    if (choice.turns && isVertical)
+        throw UsageError(
+            "--turntable turns about the vertical; give a --view that is not from above or below");
+    ViewFrame frame{.aspect = aspect};
+    if (choice.fov && *choice.fov > 0.0f && *choice.fov < 180.0f)
+        frame.verticalFov = glm::radians(*choice.fov);
+    return choice.turns ? turnedCamera(scene, choice.view, *choice.turns, frame)
+                        : viewCamera(scene, choice.view, frame);
 }
 
 void setFieldOfView(Camera& camera, const CameraChoice& choice) {
@@ -92,8 +109,9 @@ ImportOptions seenFrom(const CameraChoice& choice, ImportOptions options) {
     return options;
 }
 
-Camera chooseCamera(const Scene& scene, const CameraChoice& choice) {
-    Camera camera = pickCamera(scene, choice.name);
+Camera chooseCamera(const Scene& scene, const CameraChoice& choice, float aspect) {
+    Camera camera =
+        choice.view == NamedView::none ? pickCamera(scene, choice.name) : frameView(scene, choice, aspect);
     aim(camera, scene, choice);
     setFieldOfView(camera, choice);
     if (choice.panorama) {
@@ -122,6 +140,9 @@ OptionPairs describe(const CameraChoice& choice) {
     add("look-at", vector(choice.lookAt));
     add("up", vector(choice.up));
     add("fov", number(choice.fov));
+    if (choice.view != NamedView::none)
+        add("view", std::string(nameOf(choice.view)));
+    add("turns", number(choice.turns));
     add("aperture", choice.aperture > 0.0f ? number(choice.aperture) : std::nullopt);
     add("focus", number(choice.focus));
     add("panorama", choice.panorama ? std::optional<std::string>("on") : std::nullopt);

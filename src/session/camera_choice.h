@@ -8,6 +8,7 @@
 
 #include "gltf/import_options.h"
 #include "render/settings.h"
+#include "scene/framing_camera.h"
 #include "scene/scene.h"
 
 namespace lavalight {
@@ -21,6 +22,8 @@ struct CameraChoice {
     std::optional<float> fov;           // vertical, in degrees, above 0 and below 180
     float aperture = 0.0f;              // diameter of the lens; 0: all is sharp
     std::optional<float> focus;         // to the plane that is sharp, along the view
+    NamedView view = NamedView::none;   // frames the scene from there, instead of a camera of its own
+    std::optional<float> turns;         // of that view about the scene's vertical: a frame of a turntable
     bool panorama = false;              // all directions, laid out as environment maps are
     bool seesAll = false;               // without the planes of the scene's camera
     bool operator==(const CameraChoice&) const = default;
@@ -29,8 +32,9 @@ struct CameraChoice {
 // Import options for a scene that is seen so: its coordinates are finest there.
 [[nodiscard]] ImportOptions seenFrom(const CameraChoice& choice, ImportOptions options);
 
-// Throws UsageError naming the option and what it takes, or the cameras there are.
-[[nodiscard]] Camera chooseCamera(const Scene& scene, const CameraChoice& choice);
+// `aspect`: width over height of the image, for a view that frames the scene. Throws UsageError naming the
+// option and what it takes, or the cameras there are.
+[[nodiscard]] Camera chooseCamera(const Scene& scene, const CameraChoice& choice, float aspect = 1.0f);
 
 // Names (without dashes) and values of what the camera's name does not tell.
 [[nodiscard]] OptionPairs describe(const CameraChoice& choice);

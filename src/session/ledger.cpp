@@ -24,6 +24,9 @@ std::vector<LedgerEntry> makeLedger(const Scene& scene, const RenderSettings& se
     if (stop == StopReason::targetError)
         ledger.push_back(
             {"stopped-on-estimate", fmt::format("the error estimate reached {}", settings.stop.targetError)});
+    if (scene.hasStandInLight)
+        ledger.push_back(
+            {"stand-in-light", fmt::format("{}: the scene has no light", scene.environmentMap->source)});
     if (scene.environmentMap && scene.environmentMap->badTexels > 0)
         ledger.push_back(
             {"environment-values",

@@ -6,8 +6,11 @@
 
 #include <fmt/format.h>
 
+#include "base/error.h"
 #include "gltf/import.h"
 #include "image/environment_file.h"
+#include "render/setting_names.h"
+#include "scene/procedural/studio_environment.h"
 #include "session/builtin.h"
 
 namespace lavalight {
@@ -23,13 +26,32 @@ void readEnvironmentMap(const std::string& path, Scene& scene) {
     scene.environmentMap = {path, std::move(file.image), file.badTexels};
 }
 
-} // namespace
+void bringStudio(Scene& scene) {
+    scene.environmentMap = {std::string(nameOf(ProceduralEnvironment::studio)), makeStudio(), 0};
+}
 
-Scene loadLitScene(const std::string& nameOrPath, ImportOptions options, const LightingSettings& lighting) {
-    options.bringsLight = lighting.constant.has_value() || !lighting.mapFile.empty();
-    Scene scene = loadScene(nameOrPath, options);
+void bringLight(const LightingSettings& lighting, Scene& scene) {
     if (!lighting.mapFile.empty())
         readEnvironmentMap(lighting.mapFile, scene);
+    else if (lighting.procedural == ProceduralEnvironment::studio)
+        bringStudio(scene);
+}
+
+} // namespace
+
+Scene loadLitScene(const std::string& nameOrPath, const ImportOptions& options,
+                   const LightingSettings& lighting) {
+    Scene scene = loadScene(nameOrPath, options);
+    if (bringsLight(lighting)) {
+        bringLight(lighting, scene);
+    } else if (!scene.hasOwnLight) {
+        bringStudio(scene);
+        scene.hasStandInLight = true;
+        scene.warnings.emplace_back(
+            "the scene has no light: a studio lights it; give another light with --env");
+    }
+    if (lighting.rotation != 0.0f && !scene.environmentMap)
+        throw UsageError("--env-rotation: there is no map to turn; give one with --env FILE");
     return scene;
 }
 

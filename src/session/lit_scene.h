@@ -10,10 +10,11 @@
 
 namespace lavalight {
 
-// The scene, built in or a file, with the environment map that the lighting names, if it does. A map whose
-// values had to be changed adds a warning to the scene. Throws Error for a file that is not a scene, or not a
-// map.
-[[nodiscard]] Scene loadLitScene(const std::string& nameOrPath, ImportOptions options,
+// The scene, built in or a file, with the environment map that the lighting asks for, if it does. Without
+// any, a studio lights a file that has no light. That, or a map whose values had to be changed, adds a
+// warning to the scene. Throws Error for a file that is not a scene, or not a map, and UsageError for a
+// rotation where there is no map.
+[[nodiscard]] Scene loadLitScene(const std::string& nameOrPath, const ImportOptions& options,
                                  const LightingSettings& lighting);
 
 // The files that loadLitScene would read: scene, buffers, pictures, map.

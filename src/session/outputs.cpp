@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cctype>
 #include <filesystem>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -12,17 +13,26 @@
 #include "base/file.h"
 #include "base/log.h"
 #include "base/os/file_lock.h"
+#include "base/version.h"
 #include "image/exr.h"
 #include "image/png.h"
+#include "render/setting_names.h"
+#include "session/exposure.h"
 
 namespace lavalight {
 namespace {
 
-void warnOfCrowding(RenderReport& report, const Scene& scene) {
-    if (report.tallies.crowdedPaths == 0)
+void warn(RenderReport& report, const std::string& message) {
+    if (message.empty())
         return;
-    report.warnings.push_back(crowdedText(scene, report.tallies));
-    spdlog::warn("{}", report.warnings.back());
+    report.warnings.push_back(message);
+    spdlog::warn("{}", message);
+}
+
+PngTexts textsOf(const ToneSettings& tone) {
+    return {{"Software", fmt::format("Lavalight {}", kVersion)},
+            {"lavalight:tonemap", std::string(nameOf(tone.curve))},
+            {"lavalight:exposure", fmt::format("{}", tone.exposure)}};
 }
 
 void addPartsOfStages(RenderReport& report, const RenderJob& job) {
@@ -87,11 +97,12 @@ void requireOutputs(const Outputs& outputs) {
             requireWritable(file);
 }
 
-void writeOutputs(RenderJob& job, const Outputs& outputs, const OutputStyle& style, ToneMapper* toneMapper) {
+void writeOutputs(RenderJob& job, const Outputs& outputs, OutputStyle& style, ToneMapper* toneMapper) {
     RenderReport& report = job.report;
     const Rendering rendering = job.renderer->rendering();
     fillResults(report, *job.renderer, *job.device, rendering, job.scene);
-    warnOfCrowding(report, job.scene);
+    if (report.tallies.crowdedPaths > 0)
+        warn(report, crowdedText(job.scene, report.tallies));
     report.rays = report.rays + job.before.rays;
     if (!outputs.exr.empty() && style.keepsFilm)
         writeFilmFile(outputs.exr, job.film());
@@ -99,9 +110,13 @@ void writeOutputs(RenderJob& job, const Outputs& outputs, const OutputStyle& sty
         writeExr(outputs.exr, rendering, exrMetadata(report));
     if (!outputs.png.empty()) {
         assert(toneMapper != nullptr);
+        if (std::exchange(style.exposesByImage, false))
+            style.tone.exposure = autoExposure(rendering);
         report.tone = style.tone;
-        writePng(outputs.png, report.settings.image.width, report.settings.image.height,
-                 toneMapper->map(job.renderer->film(), style.tone));
+        const std::vector<uint32_t> pixels = toneMapper->map(job.renderer->film(), style.tone);
+        warn(report, extremesText(pixels));
+        writePng(outputs.png, report.settings.image.width, report.settings.image.height, pixels,
+                 textsOf(style.tone));
     }
     job.watch.lap("write");
     addPartsOfStages(report, job);

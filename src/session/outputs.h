@@ -31,12 +31,13 @@ void requireOutputs(const Outputs& outputs);
 
 // How images are written: what goes into the EXR file, and the PNG's tone mapping.
 struct OutputStyle {
-    bool keepsFilm = false; // the EXR file holds the exact film beside the picture
-    ToneSettings tone;      // tone mapping of the PNG
+    bool keepsFilm = false;      // the EXR file holds the exact film beside the picture
+    ToneSettings tone;           // tone mapping of the PNG
+    bool exposesByImage = false; // the first PNG settles the exposure: autoExposure()
 };
 
-// Writes the image so far, and completes the job's report. `toneMapper` may be null where there is no PNG.
-// Throws Error.
-void writeOutputs(RenderJob& job, const Outputs& outputs, const OutputStyle& style, ToneMapper* toneMapper);
+// Writes the image so far, and completes the job's report. An exposure that the image settles goes into
+// `style`. `toneMapper` may be null where there is no PNG. Throws Error.
+void writeOutputs(RenderJob& job, const Outputs& outputs, OutputStyle& style, ToneMapper* toneMapper);
 
 } // namespace lavalight

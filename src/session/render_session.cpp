@@ -10,6 +10,7 @@
 #include "scene/clipping.h"
 #include "scene/view_extent.h"
 #include "scene/world_position.h"
+#include "session/builtin.h"
 #include "session/lit_scene.h"
 
 namespace lavalight {
@@ -27,6 +28,12 @@ void warnOfFarPlane(PreparedScene& prepared) {
             prepared.camera.name, prepared.camera.zfar, hidden));
 }
 
+// Of an image whose width the camera decides: by resolveSize().
+float aspectOf(const ImageSettings& image) {
+    constexpr float kDefault = 16.0f / 9.0f;
+    return image.width > 0 ? static_cast<float>(image.width) / static_cast<float>(image.height) : kDefault;
+}
+
 PreparedScene complete(Scene scene, const Camera& camera, const RenderSettings& settings) {
     PreparedScene prepared{std::move(scene), camera, resolveSize(settings, camera)};
     checkSettings(prepared.settings);
@@ -38,18 +45,22 @@ Scene loadScene(const RenderPlan& plan, const ImportOptions& moment) {
     return loadLitScene(plan.scene, seenFrom(plan.camera, moment), plan.settings.lighting);
 }
 
-void logWarnings(const Scene& scene) {
+// What a file's author meant is kept, dark surroundings included: somebody who wonders is told of the way
+// out.
+void logNotes(const Scene& scene, const RenderPlan& plan) {
     for (const std::string& warning : scene.warnings)
         spdlog::warn("{}", warning);
+    if (scene.hasOwnLight && !bringsLight(plan.settings.lighting) && !isBuiltin(plan.scene))
+        spdlog::info("the scene's own light is the only one; --env studio adds light from all sides");
 }
 
 } // namespace
 
 PreparedScene prepareScene(const RenderPlan& plan, const ImportOptions& moment) {
     Scene scene = loadScene(plan, moment);
-    const Camera camera = chooseCamera(scene, plan.camera);
+    const Camera camera = chooseCamera(scene, plan.camera, aspectOf(plan.settings.image));
     PreparedScene prepared = complete(std::move(scene), camera, plan.settings);
-    logWarnings(prepared.scene);
+    logNotes(prepared.scene, plan);
     return prepared;
 }
 
@@ -67,16 +78,17 @@ void RenderSession::use(RenderSettings settings) {
 // The first scene of an animation speaks for all: its warnings, its stand-in camera, its image's size.
 PreparedScene RenderSession::load(const ImportOptions& moment) {
     Scene scene = loadScene(plan_, moment);
-    Camera camera = standIn_ ? *standIn_ : chooseCamera(scene, plan_.camera);
+    const bool frames = plan_.camera.view != NamedView::none || !scene.hasOwnCamera;
+    Camera camera = standIn_ ? *standIn_ : chooseCamera(scene, plan_.camera, aspectOf(plan_.settings.image));
     if (standIn_) // each moment has an origin of its own
         camera.position = fromWorld(toWorld(camera.position, standInOrigin_), scene.origin);
-    if (!scene.hasOwnCamera) {
+    if (frames && !plan_.camera.turns) {
         standIn_ = camera;
         standInOrigin_ = scene.origin;
     }
     PreparedScene prepared = complete(std::move(scene), camera, plan_.settings);
     if (!std::exchange(isWarned_, true))
-        logWarnings(prepared.scene);
+        logNotes(prepared.scene, plan_);
     plan_.settings = prepared.settings;
     return prepared;
 }

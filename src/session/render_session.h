@@ -50,6 +50,8 @@ class RenderSession {
 
     // Shaders for the jobs to come and for the record; null: those of the build.
     void use(const std::shared_ptr<ShaderOverlay>& overlay);
+    // Turns of the plan's view for the jobs to come.
+    void turn(float turns) { plan_.camera.turns = turns; }
     // Settings for the jobs to come, but for the record of shaders.
     void use(RenderSettings settings);
 

@@ -127,6 +127,13 @@ void Viewer::receive() {
         tell(error, true);
 }
 
+// The light of a scene that could not be loaded is not in use.
+void Viewer::keepLightOf(const LightingSettings& before) {
+    view_.settings.lighting.constant = before.constant;
+    view_.settings.lighting.mapFile = before.mapFile;
+    view_.settings.lighting.procedural = before.procedural;
+}
+
 void Viewer::receiveScene() {
     const auto outcome = loader_.take();
     if (!outcome)
@@ -134,7 +141,7 @@ void Viewer::receiveScene() {
     const bool isOther = outcome->order.source != view_.source;
     if (!outcome->scene) {
         tell(outcome->error, true);
-        view_.settings.lighting.mapFile = sent_ ? sent_->settings.lighting.mapFile : std::string();
+        keepLightOf(sent_ ? sent_->settings.lighting : LightingSettings{});
         return;
     }
     for (const std::string& warning : outcome->scene->warnings)
@@ -209,6 +216,7 @@ void Viewer::takeDrops() {
         if (hasEnvironmentExtension(path)) {
             view_.settings.lighting.mapFile = path;
             view_.settings.lighting.constant.reset();
+            view_.settings.lighting.procedural = ProceduralEnvironment::none;
             reload();
         } else {
             loader_.order({path, {.allowsExternal = view_.import.allowsExternal}, view_.settings.lighting});

@@ -38,6 +38,7 @@ class Viewer {
     enum class Purpose { look, centre, focus };
 
     void receive();
+    void keepLightOf(const LightingSettings& before);
     void receiveScene();
     void receiveShaders();
     void takeInspection(const PixelInspection& inspection);

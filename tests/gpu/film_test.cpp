@@ -148,14 +148,14 @@ TEST_F(FilmTest, NegativeRadianceIsCountedAndTakenForZero) {
 // what the film does for any layer.
 class SignedLayerTest : public FilmTest {
   protected:
-    static constexpr uint32_t kLean = 1; // the row
+    static constexpr uint32_t kLean = 2; // the row
     // x - y and -z of the radiance.
     [[nodiscard]] static gpu::KernelCode leaningKernel(bool hasSquares) {
-        const std::string row = R"(PLANE(kColorPlane, "color", "R,G,B", 3u, 0u, 1u))";
-        const std::string added = hasSquares ? R"( PLANE(1u, "lean", "lean.X,lean.Y", 2u, 1u, 1u))"
-                                             : R"( PLANE(1u, "lean", "lean.X,lean.Y", 2u, 1u, 0u))";
+        const std::string row = R"(PLANE(kCoveragePlane, "coverage", "A", 1u, 0u, 0u))";
+        const std::string added = hasSquares ? R"( PLANE(2u, "lean", "lean.X,lean.Y", 2u, 1u, 1u))"
+                                             : R"( PLANE(2u, "lean", "lean.X,lean.Y", 2u, 1u, 0u))";
         const std::string fill = "    return paths[slot].radiance;";
-        const std::string line = "    if (plane == 1u) return vec3(paths[slot].radiance.x - "
+        const std::string line = "    if (plane == 2u) return vec3(paths[slot].radiance.x - "
                                  "paths[slot].radiance.y, -paths[slot].radiance.z, 0.0);\n";
         return patchedKernel("accumulate", {{"shared/film.h", row, row + added},
                                             {"kernels/accumulate.comp", fill, line + fill}});
@@ -288,7 +288,7 @@ TEST_F(SignedLayerTest, IsShownByTheToneMapper) {
     Film film(device(), kWidth, kHeight, 2, layout(true));
     film.restore(raw);
     ToneMapper mapper(device());
-    const std::vector<uint32_t> shown = mapper.map(film, {ToneCurve::linear, 1.0f}, kLean);
+    const std::vector<uint32_t> shown = mapper.map(film, {ToneCurve::linear, 1.0f}, 1);
     const std::vector<uint32_t> color = mapper.map(film, {ToneCurve::linear, 1.0f});
     EXPECT_EQ(shown, std::vector<uint32_t>(kPixels, 0xff0000bcu)); // sRGB of 0.5 is 188; below 0 it is black
     EXPECT_EQ(color, std::vector<uint32_t>(kPixels, 0xffffbcffu));

@@ -78,7 +78,7 @@ class OtherTrees : public DeviceTest {
         settings_ = resolveSchedule(settings_, device().description());
         settings_.work.waveSize = kSize * kSize * settings_.stop.samples;
         kernels_.emplace(device(), kernelVariants(phasesOf(settings_), schedule, classes_),
-                         settings_.estimator, features_, source);
+                         settings_.estimator, features_, filmPlanes(settings_), source);
     }
     [[nodiscard]] std::vector<uint32_t> filmWith(const Bvh& tree) {
         SceneData data = packScene(scene_, lights_);

@@ -35,7 +35,7 @@ class Phases : public DeviceTest {
         const Schedule schedule = settings_.work.schedule;
         const MaterialClasses classes = materialClasses(scene_);
         const EstimatorKernels kernels(device(), kernelVariants(phases, schedule, classes),
-                                       settings_.estimator, features, embeddedKernel);
+                                       settings_.estimator, features, filmPlanes(settings_), embeddedKernel);
         const AcceleratorKind accelerator =
             schedule == Schedule::hosted ? AcceleratorKind::embree : AcceleratorKind::bvh8;
         const GpuScene gpuScene(device(), packScene(scene_, lights, accelerator));

@@ -238,7 +238,8 @@ def parse_options():
     parser.add_argument("--scenes", nargs="*", default=SCENES, choices=SCENES, help="for time to equal error")
     parser.add_argument("--ray-scenes", nargs="*", default=RAY_SCENES, help="for rays per second")
     parser.add_argument("--variants", nargs="*", default=["llvm_ad_rgb", "scalar_rgb"], help="of Mitsuba")
-    parser.add_argument("--wavefront", action="store_true", help="also --schedule wavefront")
+    parser.add_argument("--schedules", nargs="+", default=["hosted", "fused", "wavefront"], choices=["hosted", "fused", "wavefront"],
+                        help="of Lavalight; ratios are those of the first")
     parser.add_argument("--repeats", type=int, default=5)
     parser.add_argument("--target", type=float, default=0.003, help="relMSE")
     parser.add_argument("--threads", type=int, default=os.cpu_count(), help="of every renderer")
@@ -256,9 +257,8 @@ def main():
     options.out.mkdir(parents=True, exist_ok=True)
     rays = bench_rays(options)
     os.environ["LP_NUM_THREADS"] = str(options.threads)
-    renderers = [Lavalight(options.lavalight, "Lavalight")]
-    if options.wavefront:
-        renderers.append(Lavalight(options.lavalight, "Lavalight, wavefront", ["--schedule", "wavefront"]))
+    renderers = [Lavalight(options.lavalight, f"Lavalight, {schedule}", ["--schedule", schedule])
+                 for schedule in options.schedules]
     renderers += [mitsuba(variant, options.threads) for variant in options.variants]
     if options.cycles:
         renderers.append(cycles(options.cycles, options.threads))

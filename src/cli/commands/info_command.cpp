@@ -11,7 +11,7 @@
 
 #include "cli/material_text.h"
 #include "scene/world_position.h"
-#include "session/builtin.h"
+#include "session/lit_scene.h"
 
 namespace lavalight {
 namespace {
@@ -291,7 +291,7 @@ InfoCommand::InfoCommand(CLI::App& app)
 }
 
 int InfoCommand::run() {
-    const Scene scene = loadScene(scene_, options_.importOptions());
+    const Scene scene = loadLitScene(scene_, options_.importOptions(), {});
     if (json_) // names in files need not be valid UTF-8
         fmt::print("{}\n", sceneJson(scene).dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
     else

@@ -36,7 +36,7 @@ void printSummary(const RenderReport& report) {
 
 RenderCommand::RenderCommand(CLI::App& app)
     : Command(app, "render", "Render a scene to an image"), options_(parser()), sceneOptions_(parser()),
-      frames_(parser()), shaders_(parser()), tone_(parser()), checkpoints_(parser()) {
+      frames_(parser()), shaders_(parser()), tone_(parser()), background_(parser()), checkpoints_(parser()) {
     shaders_.declareWatch(parser());
     parser()
         .add_option("input", scene_,
@@ -60,7 +60,11 @@ RenderCommand::RenderCommand(CLI::App& app)
 
 RenderPlan RenderCommand::plan() const {
     RenderPlan plan = options_.plan(scene_);
-    plan.style = {options_.keepsFilm(), tone_.settings()};
+    plan.settings.background = background_.settings();
+    if (frames_.isTurntable() && plan.camera.view == NamedView::none)
+        plan.camera.view = NamedView::threeQuarter;
+    plan.style = {options_.keepsFilm(), tone_.settings(), tone_.isAutomatic()};
+    plan.style.tone.backdrop = background_.backdrop();
     return plan;
 }
 
@@ -68,7 +72,9 @@ void RenderCommand::checkOptions() const {
     if (tone_.isGiven() && outputs_.png.empty())
         throw UsageError("--tonemap and --exposure are for a PNG; give -o OUT.png, or leave them out");
     if (frames_.isAsked() && shaders_.isWatching())
-        throw UsageError("--watch renders one image over and over, --frames several: give one of them");
+        throw UsageError(
+            "--watch renders one image over and over, --frames and --turntable several: give one "
+            "of them");
 }
 
 void RenderCommand::takeOutputs() {
@@ -131,7 +137,11 @@ int RenderCommand::runSequence(RenderSession& session) const {
         const Outputs files = outputsOf(frame);
         requireOutputs(files);
         Checkpoint none({}, {});
-        const ImportOptions moment = sceneOptions_.importOptionsAt(range.secondsOf(frame));
+        const std::optional<float> turns = frames_.turnsOf(frame);
+        if (turns)
+            session.turn(*turns);
+        const ImportOptions moment =
+            turns ? sceneOptions_.importOptions() : sceneOptions_.importOptionsAt(range.secondsOf(frame));
         if (const int code = renderMoment(session, moment, files, none); code != 0)
             return code;
     }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cli/command.h"
+#include "cli/options/background_options.h"
 #include "cli/options/checkpoint_options.h"
 #include "cli/options/frame_options.h"
 #include "cli/options/render_options.h"
@@ -43,6 +44,7 @@ class RenderCommand : public Command {
     FrameOptions frames_;
     ShaderOptions shaders_;
     ToneOptions tone_;
+    BackgroundOptions background_;
     CheckpointOptions checkpoints_;
     std::string scene_ = "cornell-box";
     std::vector<std::string> pictures_; // -o

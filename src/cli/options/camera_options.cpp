@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "cli/options/named_option.h"
 #include "cli/options/option_values.h"
 
 namespace lavalight {
@@ -30,6 +31,9 @@ CameraOptions::CameraOptions(CLI::App& parser) : parser_(&parser) {
         ->type_name("X,Y,Z");
     parser.add_option("--look-at", at_, "The point in the middle of the image")->type_name("X,Y,Z");
     parser.add_option("--up", up_, "What is up for --look-from; default: 0,1,0")->type_name("X,Y,Z");
+    addNamed(
+        parser, "--view", choice_.view,
+        "Frame the scene from there, whatever cameras it has: every vertex is in the image, with a margin");
     parser.add_option("--fov", choice_.fov, "Vertical field of view, above 0 and below 180")
         ->type_name("DEGREES");
     parser.add_option("--aperture", choice_.aperture, "Diameter of the lens; 0: all is sharp")

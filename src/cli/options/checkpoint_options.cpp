@@ -33,7 +33,7 @@ std::string CheckpointOptions::file(const RenderSettings& settings) const {
     if (settings.stop.seconds > 0.0)
         throw UsageError("--checkpoint and --time: what a time suffices for cannot be had a second time, bit "
                          "for bit; give one of the two (an interrupted render writes its checkpoint)");
-    for (const char* option : {"--frames", "--watch"})
+    for (const char* option : {"--frames", "--turntable", "--watch"})
         if (parser_->count(option) > 0)
             throw UsageError(fmt::format("--checkpoint and {}: a checkpoint is of one image", option));
     std::error_code unknown;

@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "cli/options/option_values.h"
 #include "image/environment_file.h"
+#include "render/setting_names.h"
 
 namespace lavalight {
 namespace {
@@ -24,9 +25,10 @@ EnvironmentOptions::EnvironmentOptions(CLI::App& parser) : parser_(&parser) {
     parser
         .add_option(
             "--env", environment_,
-            "Environment that replaces the scene's: a .hdr or .exr map (its middle looks along +X, its "
-            "right half towards +Z, its top along +Y), or constant radiance")
-        ->type_name("FILE|R,G,B");
+            "Environment that replaces the scene's: a photographer's studio, constant radiance (white: "
+            "1,1,1), or a .hdr or .exr map (its middle looks along +X, its right half towards +Z, its "
+            "top along +Y). A file without light has the studio")
+        ->type_name("studio|white|R,G,B|FILE");
     parser
         .add_option("--env-rotation", rotation_,
                     "Turns the map about +Y, counter-clockwise as seen from above (from +X to -Z)")
@@ -39,7 +41,11 @@ LightingSettings EnvironmentOptions::lighting() const {
     LightingSettings lighting;
     lighting.rotation = rotation_;
     lighting.intensity = intensity_;
-    if (const std::optional<glm::vec3> radiance = parseVector<float>(environment_)) {
+    if (environment_ == "white") {
+        lighting.constant = glm::vec3(1.0f);
+    } else if (environment_ == nameOf(ProceduralEnvironment::studio)) {
+        lighting.procedural = ProceduralEnvironment::studio;
+    } else if (const std::optional<glm::vec3> radiance = parseVector<float>(environment_)) {
         if (glm::any(glm::lessThan(*radiance, glm::vec3(0.0f))))
             throw UsageError(fmt::format("--env: a radiance in \"{}\" is below 0", environment_));
         lighting.constant = radiance;
@@ -47,11 +53,11 @@ LightingSettings EnvironmentOptions::lighting() const {
         lighting.mapFile = environment_;
     } else if (parser_->count("--env") > 0) {
         throw UsageError(
-            fmt::format("--env: \"{}\" is neither R,G,B with three radiances of 0 or more nor the "
-                        "name of a .hdr or .exr file",
+            fmt::format("--env: \"{}\" is neither studio, nor white, nor R,G,B with three radiances of 0 "
+                        "or more, nor the name of a .hdr or .exr file",
                         environment_));
     }
-    if (parser_->count("--env-rotation") > 0 && lighting.mapFile.empty())
+    if (parser_->count("--env-rotation") > 0 && lighting.constant)
         throw UsageError("--env-rotation: there is no map to turn; give one with --env FILE");
     return lighting;
 }

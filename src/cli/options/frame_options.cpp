@@ -20,16 +20,32 @@ FrameOptions::FrameOptions(CLI::App& parser) : parser_(&parser) {
                     "Render the animation's frames A to before B, at A/fps seconds and on, into numbered "
                     "files: OUT_0007.exr")
         ->type_name("A:B");
+    parser
+        .add_option("--turntable", turntable_,
+                    "Render N images of one turn around the scene into numbered files; --view says from how "
+                    "high")
+        ->type_name("N")
+        ->check(CLI::Range(1u, kMostFrames))
+        ->default_str("");
     parser.add_option("--fps", framesPerSecond_, "Frames a second of --frames")->type_name("N");
 }
 
 bool FrameOptions::isAsked() const {
     if (parser_->count("--fps") > 0 && frames_.empty())
         throw UsageError("--fps: needs --frames A:B");
-    return !frames_.empty();
+    if (isTurntable() && !frames_.empty())
+        throw UsageError("--turntable and --frames: both make several images; give one of the two");
+    return isTurntable() || !frames_.empty();
+}
+
+std::optional<float> FrameOptions::turnsOf(uint32_t frame) const {
+    return isTurntable() ? std::optional(static_cast<float>(frame) / static_cast<float>(turntable_))
+                         : std::nullopt;
 }
 
 FrameRange FrameOptions::range() const {
+    if (isTurntable())
+        return {0, turntable_, framesPerSecond_};
     const auto parts = splitAt(frames_, ':');
     const auto first = parseNumber<uint32_t>(parts.front());
     const auto end = parseNumber<uint32_t>(parts.back());

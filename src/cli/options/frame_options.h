@@ -1,6 +1,8 @@
 // The options that make a sequence of frames of a render.
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -9,21 +11,25 @@
 
 namespace lavalight {
 
-// Declares --frames and --fps. Must outlive the parsing; the parser points into it.
+// Declares --frames, --fps and --turntable. Must outlive the parsing; the parser points into it.
 class FrameOptions {
   public:
     explicit FrameOptions(CLI::App& parser);
     FrameOptions(const FrameOptions&) = delete;
     FrameOptions& operator=(const FrameOptions&) = delete;
 
-    // Whether --frames was given. Throws UsageError for --fps without it.
+    // Whether there are several images. Throws UsageError for options that contradict each other.
     [[nodiscard]] bool isAsked() const;
     // Throws UsageError for a range or a rate that makes no sense.
     [[nodiscard]] FrameRange range() const;
+    // Of a turntable's frame; none: the frames are moments of an animation.
+    [[nodiscard]] std::optional<float> turnsOf(uint32_t frame) const;
+    [[nodiscard]] bool isTurntable() const { return turntable_ > 0; }
 
   private:
     CLI::App* parser_; // asked which options were given
     std::string frames_;
+    uint32_t turntable_ = 0; // frames; 0: none
     double framesPerSecond_ = FrameRange().framesPerSecond;
 };
 

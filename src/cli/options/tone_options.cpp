@@ -1,10 +1,12 @@
 #include "cli/options/tone_options.h"
 
 #include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/parse.h"
 #include "cli/options/named_option.h"
 
 namespace lavalight {
@@ -12,13 +14,23 @@ namespace lavalight {
 ToneOptions::ToneOptions(CLI::App& parser) : parser_(&parser) {
     addNamed(parser, "--tonemap", tone_.curve,
              "Curve from radiance to the display: clamped, Khronos PBR Neutral, AgX, ACES");
-    parser.add_option("--exposure", tone_.exposure, "Stops of exposure before the curve")->type_name("STOPS");
+    parser
+        .add_option(
+            "--exposure", exposure_,
+            "Stops of exposure before the curve; auto: the log-average luminance becomes middle grey, of "
+            "what is covered where --background leaves the rest out")
+        ->type_name("STOPS|auto");
 }
 
 ToneSettings ToneOptions::settings() const {
-    if (!std::isfinite(tone_.exposure))
-        throw UsageError(fmt::format("--exposure: {} is not a number of stops", tone_.exposure));
-    return tone_;
+    ToneSettings tone = tone_;
+    if (isAutomatic())
+        return tone;
+    const std::optional<float> stops = parseNumber<float>(exposure_);
+    if (!stops || !std::isfinite(*stops))
+        throw UsageError(fmt::format("--exposure: \"{}\" is neither a number of stops nor auto", exposure_));
+    tone.exposure = *stops;
+    return tone;
 }
 
 bool ToneOptions::isGiven() const {

@@ -235,18 +235,13 @@ TEST(GltfMaterial, HugeEmissionStaysFinite) {
     EXPECT_GT(material.emission.x, 1e9f);
 }
 
-TEST(GltfMaterial, SceneWithoutLightGetsAWhiteEnvironmentAndAMessage) {
+TEST(GltfMaterial, SceneWithoutLightIsMarkedAndWhiteAround) {
     const Scene dark = triangleOf(Json::object()).import();
+    EXPECT_FALSE(dark.hasOwnLight);
     EXPECT_EQ(dark.environment, glm::vec3(1.0f));
-    EXPECT_EQ(warningsWith(dark, "no light"), 1);
     const Scene lit = triangleOf({{"emissiveFactor", {0, 1, 0}}}).import();
+    EXPECT_TRUE(lit.hasOwnLight);
     EXPECT_EQ(lit.environment, glm::vec3(0.0f));
-    EXPECT_EQ(warningsWith(lit, "no light"), 0);
-    ImportOptions options;
-    options.bringsLight = true;
-    const Scene brought = importGltf("test.glb", triangleOf(Json::object()).glb(), options);
-    EXPECT_EQ(brought.environment, glm::vec3(0.0f));
-    EXPECT_EQ(warningsWith(brought, "no light"), 0);
 }
 
 TEST(GltfMaterial, LightOfAMaterialThatNothingWearsIsNoLight) {

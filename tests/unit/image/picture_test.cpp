@@ -59,7 +59,7 @@ TEST(Picture, PngThatClaimsMoreTexelsThanItsBytesCanHoldIsRefusedByItsHeader) {
 TEST(Picture, PngOfOneColorIsNoBomb) {
     const TemporaryFolder folder;
     constexpr uint32_t kSide = 2048;
-    writePng(folder / "white.png", kSide, kSide, std::vector<uint32_t>(kSide * kSide, 0xFFFFFFu));
+    writePng(folder / "white.png", kSide, kSide, std::vector<uint32_t>(kSide * kSide, 0xFFFFFFFFu));
     const std::string bytes = readFile(folder / "white.png");
     EXPECT_GT(kSide * kSide / bytes.size(), 25u); // texels a byte
     EXPECT_EQ(decodePicture(bytes).width, kSide);

@@ -20,10 +20,10 @@ struct FreeImage {
     void operator()(unsigned char* pixels) const { stbi_image_free(pixels); }
 };
 
-TEST(WritePng, PixelsComeBackInPlaceWithoutTheirHighestByte) {
+TEST(WritePng, PixelsComeBackInPlaceWithoutAlphaWhereAllIsOpaque) {
     const TemporaryFolder folder;
     const std::vector<uint32_t> written{0xff030201, 0xff000000, 0xffffffff,
-                                        0x000000ff, 0x0000ff00, 0x00ff0000};
+                                        0xff0000ff, 0xff00ff00, 0xffff0000};
     writePng(folder / "image.png", 3, 2, written);
     int width = 0;
     int height = 0;
@@ -38,6 +38,28 @@ TEST(WritePng, PixelsComeBackInPlaceWithoutTheirHighestByte) {
     EXPECT_EQ(bytes, (std::vector<unsigned char>{1, 2, 3, 0, 0, 0, 255, 255, 255, //
                                                  255, 0, 0, 0, 255, 0, 0, 0, 255}));
     EXPECT_EQ(folder.count(), 1);
+}
+
+TEST(WritePng, AlphaBelow255ComesBackAndSoDoTexts) {
+    const std::vector<uint32_t> written{0x80030201, 0xff0000ff};
+    const std::string file =
+        encodePng(2, 1, written, {{"Software", "Lavalight"}, {"lavalight:exposure", "1.5"}});
+    int width = 0;
+    int height = 0;
+    int channels = 0;
+    const std::unique_ptr<unsigned char, FreeImage> pixels(
+        stbi_load_from_memory(reinterpret_cast<const stbi_uc*>(file.data()), static_cast<int>(file.size()),
+                              &width, &height, &channels, 0));
+    ASSERT_NE(pixels, nullptr);
+    ASSERT_EQ(channels, 4);
+    EXPECT_EQ(std::vector<unsigned char>(pixels.get(), pixels.get() + 8),
+              (std::vector<unsigned char>{1, 2, 3, 128, 255, 0, 0, 255}));
+    // Length, type, keyword, 0 and text, and the CRC-32 that zlib's documentation and Python's zlib.crc32
+    // give.
+    const std::string chunk("\0\0\0\x12tEXtSoftware\0Lavalight", 4 + 4 + 18);
+    ASSERT_NE(file.find(chunk), std::string::npos);
+    EXPECT_EQ(file.substr(file.find(chunk) + chunk.size(), 4), std::string("\342\352\121\064", 4));
+    EXPECT_NE(file.find(std::string("lavalight:exposure\0001.5", 22)), std::string::npos);
 }
 
 TEST(WritePng, AnUnwritablePathIsAnErrorAndLeavesNothing) {

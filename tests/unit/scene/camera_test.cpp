@@ -109,6 +109,81 @@ TEST(FramingCamera, ShowsAllCornersOfAnyBoxAndFillsTheImage) {
     }
 }
 
+// A bent row of points: no box fits it closely.
+Scene hook() {
+    Scene scene;
+    Mesh mesh;
+    mesh.positions = {{0, 0, 0}, {3, 0.1f, 0}, {3, 2, 0.5f}, {2.5f, 2, -1}, {0.2f, 0.3f, 0.7f}};
+    scene.bounds = {{0, 0, -1}, {3, 2, 0.7f}};
+    scene.meshes.push_back(mesh);
+    return scene;
+}
+
+struct Seen { // of the image, whose sides are at -1 and 1
+    glm::vec2 least{1e9f};
+    glm::vec2 most{-1e9f};
+};
+
+Seen seenBy(const Camera& camera, const Scene& scene, float aspect) {
+    Seen seen;
+    for (const glm::vec3& position : scene.meshes[0].positions) {
+        EXPECT_GT(glm::dot(position - camera.position, camera.forward), 0.0f);
+        const glm::vec2 at = project(camera, position) / glm::vec2(aspect, 1.0f);
+        seen.least = glm::min(seen.least, at);
+        seen.most = glm::max(seen.most, at);
+    }
+    return seen;
+}
+
+TEST(ViewCamera, ReachesTheMarginOnBothSidesOfOneAxisAndIsInTheMiddleOfTheOther) {
+    constexpr float kMargin = 1.0f / 1.1f;
+    constexpr float kNear = 1e-3f;
+    const Scene scene = hook();
+    for (const NamedView view : {NamedView::front, NamedView::back, NamedView::left, NamedView::right,
+                                 NamedView::top, NamedView::bottom, NamedView::threeQuarter})
+        for (const float aspect : {0.4f, 1.0f, 3.0f}) {
+            SCOPED_TRACE(static_cast<int>(view));
+            const Camera camera = viewCamera(scene, view, {.aspect = aspect, .verticalFov = 0.6f});
+            expectOrthonormal(camera);
+            const Seen seen = seenBy(camera, scene, aspect);
+            EXPECT_NEAR(std::max(seen.most.x, seen.most.y), kMargin, kNear);
+            EXPECT_GT(std::min(seen.least.x, seen.least.y), -kMargin - kNear);
+            const bool fillsWidth = seen.most.x > seen.most.y;
+            EXPECT_NEAR(fillsWidth ? seen.least.x : seen.least.y, -kMargin, kNear);
+        }
+    expectNear(viewCamera(scene, NamedView::left, {}).forward, {1, 0, 0});
+    expectNear(viewCamera(scene, NamedView::top, {}).up, {0, 0, -1});
+}
+
+TEST(ViewCamera, TurnsKeepEveryVertexInTheImageAtOneDistanceFromTheMiddle) {
+    const Scene scene = hook();
+    constexpr float kAspect = 1.5f;
+    float closest = 0.0f; // to the borders
+    const auto turned = [&](float turns) {
+        return turnedCamera(scene, NamedView::threeQuarter, turns, {.aspect = kAspect, .verticalFov = 0.6f});
+    };
+    const float distance = glm::length(turned(0.0f).position - scene.bounds.center());
+    for (int i = 0; i < 72; ++i) {
+        const Camera camera = turned(static_cast<float>(i) / 72.0f);
+        EXPECT_NEAR(glm::length(camera.position - scene.bounds.center()), distance, 1e-4f * distance);
+        const Seen seen = seenBy(camera, scene, kAspect);
+        closest = std::max({closest, seen.most.x, seen.most.y, -seen.least.x, -seen.least.y});
+    }
+    EXPECT_LT(closest, 1.0f / 1.1f + 1e-3f);
+    EXPECT_GT(closest, 0.88f);
+    // A quarter counter-clockwise as seen from above: from +z towards +x.
+    EXPECT_GT(turnedCamera(scene, NamedView::front, 0.25f, {}).position.x, 5.0f);
+}
+
+TEST(ViewCamera, FramesAnEmptySceneAndASinglePoint) {
+    Scene scene;
+    EXPECT_TRUE(std::isfinite(viewCamera(scene, NamedView::front, {}).position.z));
+    scene.meshes.emplace_back().positions = {{1, 2, 3}};
+    scene.bounds = {{1, 2, 3}, {1, 2, 3}};
+    EXPECT_GT(viewCamera(scene, NamedView::front, {}).position.z, 3.0f);
+    EXPECT_GT(turnedCamera(scene, NamedView::front, 0.0f, {}).position.z, 3.0f);
+}
+
 TEST(FramingCamera, EmptySceneStillHasAUsableCamera) {
     const Scene scene = GltfBuilder().import();
     ASSERT_EQ(scene.cameras.size(), 1u);

@@ -1,0 +1,59 @@
+#include "cli/options/background_options.h"
+
+#include <algorithm>
+#include <cctype>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "cli/options/option_values.h"
+#include "image/srgb.h"
+
+namespace lavalight {
+namespace {
+
+// #rrggbb
+std::optional<uint32_t> parseHexColor(const std::string& text) {
+    const auto isDigit = [](unsigned char c) { return std::isxdigit(c) != 0; };
+    if (text.size() != 7 || text[0] != '#' || !std::all_of(text.begin() + 1, text.end(), isDigit))
+        return std::nullopt;
+    return static_cast<uint32_t>(std::stoul(text.substr(1), nullptr, 16));
+}
+
+} // namespace
+
+BackgroundOptions::BackgroundOptions(CLI::App& parser) {
+    parser
+        .add_option(
+            "--background", background_,
+            "What is seen behind the scene: the environment; nothing (EXR and PNG get an alpha channel); a "
+            "colour of the PNG, as it arrives on the screen; or a radiance. What glass and mirrors show "
+            "of the environment stays")
+        ->type_name("environment|transparent|#rrggbb|R,G,B");
+}
+
+BackgroundSettings BackgroundOptions::settings() const {
+    if (background_ == "environment")
+        return {};
+    if (background_ == "transparent" || parseHexColor(background_))
+        return {Background::transparent, glm::vec3(0.0f)};
+    const std::optional<glm::vec3> radiance = parseVector<float>(background_);
+    if (!radiance || glm::any(glm::lessThan(*radiance, glm::vec3(0.0f))))
+        throw UsageError(
+            fmt::format("--background: \"{}\" is neither environment, nor transparent, nor a colour "
+                        "#rrggbb, nor R,G,B with three radiances of 0 or more",
+                        background_));
+    return {Background::constant, *radiance};
+}
+
+std::optional<glm::vec3> BackgroundOptions::backdrop() const {
+    const std::optional<uint32_t> color = parseHexColor(background_);
+    if (!color)
+        return std::nullopt;
+    const auto channel = [&](uint32_t shift) {
+        return static_cast<float>(decodeSrgb((*color >> shift & 0xffu) / 255.0));
+    };
+    return glm::vec3(channel(16), channel(8), channel(0));
+}
+
+} // namespace lavalight

@@ -1,0 +1,65 @@
+#include "session/exposure.h"
+
+#include <cmath>
+#include <cstddef>
+
+#include <fmt/format.h>
+#include <glm/glm.hpp>
+
+namespace lavalight {
+namespace {
+
+constexpr double kMiddleGrey = 0.18;
+constexpr const char* kCoverage = "coverage"; // the layer of shaders/shared/film.h
+
+// Signals that are all but white or black.
+constexpr uint32_t kWhite = 250;
+constexpr uint32_t kBlack = 5;
+
+// Of linear Rec. 709.
+double luminance(const glm::vec3& color) {
+    return glm::dot(glm::dvec3(color), glm::dvec3(0.2126, 0.7152, 0.0722));
+}
+
+} // namespace
+
+float autoExposure(const Rendering& rendering) {
+    const Layer* coverage = rendering.find(kCoverage);
+    const std::vector<glm::vec3>& pixels = rendering.radiance().pixels;
+    double sum = 0.0;
+    double weights = 0.0;
+    for (size_t i = 0; i < pixels.size(); ++i) {
+        const double weight = coverage != nullptr ? coverage->mean.pixels[i].x : 1.0;
+        const double light = luminance(pixels[i]);
+        if (!(weight > 0.0) || !(light > 0.0))
+            continue;
+        sum += weight * std::log2(light / weight);
+        weights += weight;
+    }
+    return weights > 0.0 ? static_cast<float>(std::log2(kMiddleGrey) - sum / weights) : 0.0f;
+}
+
+std::string extremesText(std::span<const uint32_t> pixels) {
+    size_t seen = 0;
+    size_t white = 0;
+    size_t black = 0;
+    for (const uint32_t pixel : pixels) {
+        const uint32_t red = pixel & 0xffu;
+        const uint32_t green = pixel >> 8 & 0xffu;
+        const uint32_t blue = pixel >> 16 & 0xffu;
+        if (pixel >> 24 == 0)
+            continue;
+        ++seen;
+        white += red >= kWhite && green >= kWhite && blue >= kWhite ? 1 : 0;
+        black += red <= kBlack && green <= kBlack && blue <= kBlack ? 1 : 0;
+    }
+    if (2 * white > seen)
+        return fmt::format("{:.0f} % of the picture is white; try --exposure auto, or --exposure -2",
+                           100.0 * static_cast<double>(white) / static_cast<double>(seen));
+    if (2 * black > seen)
+        return fmt::format("{:.0f} % of the picture is black; try --exposure auto, or --env studio",
+                           100.0 * static_cast<double>(black) / static_cast<double>(seen));
+    return {};
+}
+
+} // namespace lavalight
