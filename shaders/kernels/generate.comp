@@ -1,5 +1,6 @@
 #version 460
 // Starts the paths of a wave.
+#include "scene/path_layers.glsl"
 #include "scene/path_rays.glsl"
 #include "scene/wave.glsl"
 
@@ -11,6 +12,7 @@ void main() {
         return;
     rays[slot] = cameraRayOf(slot);
     paths[slot] = kNewPath;
+    startLayers(slot);
     queues[rayQueueStart(0u, frame.waveSize) + slot] = slot;
     if (slot == 0u)
         counters[0].rays = slotCount();

@@ -45,6 +45,7 @@ void takePath(uint index, uint slots, inout Lane lane, inout Path path) {
         ++lane.started;
         lane.ray = cameraRayOf(lane.slot);
         path = kNewPath;
+        startLayers(lane.slot);
         return;
     }
     const uint at = slotOfLane(index, lane.resumed);

@@ -17,6 +17,8 @@ uint wordOf(uint word, uint pixel) {
 }
 
 float sumOf(uint component, uint pixel) {
+    if (range.isImage != 0u)
+        return uintBitsToFloat(wordOf(range.firstWord + component, pixel));
     const uint first = range.firstWord + component * componentWordsOf(range.plane);
     const uvec3 low = uvec3(wordOf(first, pixel), wordOf(first + 1u, pixel), wordOf(first + 2u, pixel));
     return range.plane.isSigned != 0u ? fromSigned(uvec4(low, wordOf(first + 3u, pixel)), kSumLowestExponent)
@@ -25,6 +27,8 @@ float sumOf(uint component, uint pixel) {
 
 float coverageSum(uint pixel) {
     const uint first = range.coverageWord;
+    if (range.isImage != 0u)
+        return uintBitsToFloat(wordOf(first, pixel));
     return fromFixed(uvec3(wordOf(first, pixel), wordOf(first + 1u, pixel), wordOf(first + 2u, pixel)), kSumLowestExponent);
 }
 
@@ -40,7 +44,7 @@ void main() {
     const uint pixel = range.firstPixel + gl_GlobalInvocationID.x;
     if (pixel >= range.bandPixels)
         return;
-    const uint count = wordOf(range.countWord, pixel);
+    const uint count = range.isImage != 0u ? 1u : wordOf(range.countWord, pixel);
     const float samples = float(max(count, 1u));
     float alpha = range.coverageWord > 0u ? min(coverageSum(pixel) / samples, 1.0) : 1.0;
     const vec3 mean = max(sums(pixel) / samples, 0.0); // black without samples

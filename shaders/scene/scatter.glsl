@@ -1,6 +1,7 @@
 // One vertex of a path: what it emits, what lights send it directly, and where the path goes on.
 // Based on: Kajiya, "The Rendering Equation", 1986.
 #include "scene/path_vertex.glsl"
+#include "scene/record_layers.glsl"
 
 // What there is to trace after a vertex.
 struct NextRays {
@@ -48,16 +49,23 @@ NextRays scatterAt(Hit hit, Ray ray, uint slot, uint bounce, inout Path path) {
     const float throughCoat = coatTransmittance(material, -ray.direction, surface);
     material = texturedMaterial(material, -ray.direction, key, surface);
 
+    recordPlace(slot, bounce, surface, hit.t);
+
     // ---- Emission ----
     if (sceneHas(kFeatureUnlit) && (material.flags & kMaterialUnlit) != 0u) {
-        path.radiance += clamped(path.throughput * material.baseColor, bounce);
+        const vec3 shown = clamped(path.throughput * material.baseColor, bounce);
+        path.radiance += shown;
+        recordEmission(slot, bounce, shown);
         return next;
     }
     if (sceneHas(kFeatureEmission)) {
         const vec3 emission = throughCoat * emissionOf(material, surface.isFront);
-        if (emission != vec3(0.0))
-            path.radiance += clamped(
+        if (emission != vec3(0.0)) {
+            const vec3 found = clamped(
                 path.throughput * emission * foundLightWeight(path.bsdfPdf, hitLightPdf(surface, hit, ray)), bounce);
+            path.radiance += found;
+            recordEmission(slot, bounce, found);
+        }
     }
     next.isCut = bounce >= frame.maxBounces;
     if (next.isCut)
@@ -70,6 +78,7 @@ NextRays scatterAt(Hit hit, Ray ray, uint slot, uint bounce, inout Path path) {
     Vertex vertex = makeVertex(surface, material, -ray.direction, key);
     if (sceneHas(kFeatureSolids))
         vertex.media = media;
+    recordAlbedo(slot, bounce, vertex);
 
     // ---- Next-event estimation ----
     if (kNee != 0u && sceneHas(kFeatureLights) && hasNonDelta(vertex.bsdf))
@@ -86,7 +95,9 @@ NextRays scatterAt(Hit hit, Ray ray, uint slot, uint bounce, inout Path path) {
 NextRays scatter(Hit hit, Ray ray, uint slot, uint bounce, inout Path path) {
     path.bsdfPdf = pdfOfFinding(ray, path.bsdfPdf);
     if (hit.t == kInfinity) {
-        path.radiance += escape(ray, bounce, path);
+        const vec3 found = escape(ray, bounce, path);
+        path.radiance += found;
+        recordEmission(slot, bounce, found);
         if (bounce == 0u)
             path.etaScale = kUncovered;
         return nothingNext();

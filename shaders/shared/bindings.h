@@ -24,6 +24,7 @@
 #define BINDING_LANES 19
 #define BINDING_LANE_COUNTERS 20
 #define BINDING_WAITING_PATHS 30
+#define BINDING_PATH_LAYERS 34
 
 // Film of one band and what happened to it.
 #define BINDING_FILM 16

@@ -25,6 +25,7 @@ struct FilmPlane {
     uint components; // 1 to 3
     uint isSigned;   // 0: negative values are counted, and taken for 0
     uint hasSquares; // 0: there is no variance
+    uint isPerHit;   // 1: means are over the camera paths that met something, which kHitsPlane counts
 };
 
 SHARED_FUNCTION uint sumWordsOf(FilmPlane plane) {
@@ -41,17 +42,34 @@ SHARED_FUNCTION uint wordsOf(FilmPlane plane) {
 
 // Numbers of the rows below.
 SHARED_CONST uint kColorPlane = 0u;
-SHARED_CONST uint kCoveragePlane = 1u; // 1 where the camera ray met something, 0 elsewhere
+SHARED_CONST uint kCoveragePlane = 1u; // 1 where the camera ray met something, 0 elsewhere: with a transparent background
+SHARED_CONST uint kHitsPlane = 2u;     // the same, for planes that are means over hits
+SHARED_CONST uint kAlbedoPlane = 3u;   // directional albedo, as the next three of the first surface
+SHARED_CONST uint kNormalPlane = 4u;   // in the world, towards the camera
+SHARED_CONST uint kDepthPlane = 5u;    // metres along the camera's view; of a panorama, along the ray
+SHARED_CONST uint kPositionPlane = 6u; // metres from the scene's origin
+SHARED_CONST uint kEmissionPlane = 7u; // radiance that is seen directly: of the first surface, or of the background
+SHARED_CONST uint kGuideAlbedoPlane = 8u; // for denoisers: of the first surface that is no smooth mirror or glass
+SHARED_CONST uint kGuideNormalPlane = 9u;
 
 // All planes that there are, a row each in the order of their numbers: number, name of the layer, channels in EXR files,
-// components, isSigned, hasSquares. A film has the colour and those that were asked for, in this order;
+// components, isSigned, hasSquares, isPerHit. A film has the colour and those that were asked for, in this order;
 // shaders/kernels/accumulate.comp says what fills them.
 #define FILM_PLANES(PLANE) \
-    PLANE(kColorPlane, "color", "R,G,B", 3u, 0u, 1u) \
-    PLANE(kCoveragePlane, "coverage", "A", 1u, 0u, 0u)
+    PLANE(kColorPlane, "color", "R,G,B", 3u, 0u, 1u, 0u) \
+    PLANE(kCoveragePlane, "coverage", "A", 1u, 0u, 0u, 0u) \
+    PLANE(kHitsPlane, "hits", "hits.N", 1u, 0u, 0u, 0u) \
+    PLANE(kAlbedoPlane, "albedo", "albedo.R,albedo.G,albedo.B", 3u, 0u, 0u, 0u) \
+    PLANE(kNormalPlane, "normal", "normal.X,normal.Y,normal.Z", 3u, 1u, 0u, 1u) \
+    PLANE(kDepthPlane, "depth", "depth.Z", 1u, 1u, 0u, 1u) \
+    PLANE(kPositionPlane, "position", "position.X,position.Y,position.Z", 3u, 1u, 0u, 1u) \
+    PLANE(kEmissionPlane, "emission", "emission.R,emission.G,emission.B", 3u, 0u, 0u, 0u) \
+    PLANE(kGuideAlbedoPlane, "guide-albedo", "guide-albedo.R,guide-albedo.G,guide-albedo.B", 3u, 0u, 0u, 0u) \
+    PLANE(kGuideNormalPlane, "guide-normal", "guide-normal.X,guide-normal.Y,guide-normal.Z", 3u, 1u, 0u, 0u)
 
-#define FILM_PLANE_SHAPE(number, name, channels, components, isSigned, hasSquares) {components, isSigned, hasSquares},
-#define FILM_PLANE_COUNT(number, name, channels, components, isSigned, hasSquares) + 1u
+#define FILM_PLANE_SHAPE(number, name, channels, components, isSigned, hasSquares, isPerHit) \
+    {components, isSigned, hasSquares, isPerHit},
+#define FILM_PLANE_COUNT(number, name, channels, components, isSigned, hasSquares, isPerHit) + 1u
 SHARED_CONST FilmPlane kFilmPlanes[] = {FILM_PLANES(FILM_PLANE_SHAPE)};
 SHARED_CONST uint kFilmPlaneCount = 0u FILM_PLANES(FILM_PLANE_COUNT);
 
@@ -61,7 +79,7 @@ SHARED_CONST uint kFilmPlaneCount = 0u FILM_PLANES(FILM_PLANE_COUNT);
 //
 // `asked`: a film's planes, bit i for row i. The sum is written out, row by row, since compilers see through no loop here.
 SHARED_FUNCTION uint firstWordOf(uint plane, uint asked) {
-#define FILM_PLANE_WORDS(number, name, channels, components, isSigned, hasSquares) \
+#define FILM_PLANE_WORDS(number, name, channels, components, isSigned, hasSquares, isPerHit) \
     + (number < plane && (asked >> number & 1u) != 0u ? wordsOf(kFilmPlanes[number]) : 0u)
     return 0u FILM_PLANES(FILM_PLANE_WORDS);
 }

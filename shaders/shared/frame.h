@@ -40,7 +40,7 @@ struct FrameParameters {
     uint startNotes;
     uint startsVary;    // kFeatureStartsVary is wanted
     uint hasBackground; // kFeatureBackground is wanted
-    uint unused1;
+    uint hasLayers;     // kFeatureLayers is wanted
     vec3 background; // radiance
     uint unused2;
 };

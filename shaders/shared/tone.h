@@ -18,9 +18,8 @@ struct ToneRange {
     uint firstWord;  // index of the first word plane of the plane that is shown
     uint coverageWord; // the same of the plane of coverage, by which the colour is associated; 0: all is covered
     FilmPlane plane;
-    uint unused0;
-    uint unused1;
-    uint unused2;
+    uint isImage; // 1: each component is one word that holds a float, and no samples are counted
+    uint unused;
 };
 
 // A specialisation constant: the curve picks code.

@@ -16,6 +16,8 @@ namespace {
 
 constexpr std::string_view kBetweenPlanes = "; ";
 constexpr std::string_view kAfterName = ": ";
+constexpr std::string_view kSquares = " squares";
+constexpr std::string_view kPerHit = " per-hit";
 constexpr size_t kMostComponents = 3;
 constexpr size_t kMostPlanes = 32; // a film's planes are asked for by the bits of one word
 
@@ -37,7 +39,7 @@ std::vector<std::string> channelsOf(std::string_view list) {
 
 // Whether the rows stand in the order of their numbers.
 constexpr bool areInOrder() {
-#define PLANE_NUMBER(number, name, channels, components, isSigned, hasSquares) number,
+#define PLANE_NUMBER(number, name, channels, components, isSigned, hasSquares, isPerHit) number,
     constexpr std::array numbers{FILM_PLANES(PLANE_NUMBER)};
 #undef PLANE_NUMBER
     for (size_t i = 0; i < numbers.size(); ++i)
@@ -48,8 +50,8 @@ constexpr bool areInOrder() {
 static_assert(areInOrder());
 
 const std::vector<LayerPlane>& allPlanes() {
-#define LAYER_PLANE(number, name, channels, components, isSigned, hasSquares)                                \
-    {name, channelsOf(channels), {components, isSigned, hasSquares}},
+#define LAYER_PLANE(number, name, channels, components, isSigned, hasSquares, isPerHit)                      \
+    {name, channelsOf(channels), {components, isSigned, hasSquares, isPerHit}},
     static const std::vector<LayerPlane> planes{FILM_PLANES(LAYER_PLANE)};
 #undef LAYER_PLANE
     return planes;
@@ -63,8 +65,9 @@ bool isName(std::string_view text) {
 }
 
 std::string planeText(const LayerPlane& plane) {
-    return fmt::format("{}{}{} {}{}", plane.name, kAfterName, fmt::join(plane.channels, ","),
-                       plane.isSigned() ? "signed" : "unsigned", plane.hasSquares() ? " squares" : "");
+    return fmt::format("{}{}{} {}{}{}", plane.name, kAfterName, fmt::join(plane.channels, ","),
+                       plane.isSigned() ? "signed" : "unsigned", plane.hasSquares() ? kSquares : "",
+                       plane.isPerHit() ? kPerHit : "");
 }
 
 std::optional<LayerPlane> parsePlane(std::string_view text) {
@@ -75,7 +78,8 @@ std::optional<LayerPlane> parsePlane(std::string_view text) {
     LayerPlane plane{std::string(text.substr(0, nameEnd)), channelsOf(words.front()), {}};
     plane.shape.components = static_cast<uint32_t>(plane.channels.size());
     plane.shape.isSigned = words.size() > 1 && words[1] == "signed" ? 1 : 0;
-    plane.shape.hasSquares = words.size() > 2 ? 1 : 0;
+    plane.shape.hasSquares = text.find(kSquares, nameEnd) != std::string_view::npos ? 1 : 0;
+    plane.shape.isPerHit = text.ends_with(kPerHit) ? 1 : 0;
     const bool areNames =
         isName(plane.name) && std::all_of(plane.channels.begin(), plane.channels.end(), isName);
     // A text that is written as it was read was read to its end.
@@ -102,7 +106,7 @@ bool areLayers(const std::vector<LayerPlane>& planes) {
 
 bool operator==(const LayerPlane& a, const LayerPlane& b) {
     return a.name == b.name && a.channels == b.channels && a.shape.components == b.shape.components &&
-           a.isSigned() == b.isSigned() && a.hasSquares() == b.hasSquares();
+           a.isSigned() == b.isSigned() && a.hasSquares() == b.hasSquares() && a.isPerHit() == b.isPerHit();
 }
 
 FilmLayout::FilmLayout(std::vector<LayerPlane> planes) : planes_(std::move(planes)) {

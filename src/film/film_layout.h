@@ -21,6 +21,7 @@ struct LayerPlane {
 
     [[nodiscard]] bool isSigned() const { return shape.isSigned != 0; }
     [[nodiscard]] bool hasSquares() const { return shape.hasSquares != 0; }
+    [[nodiscard]] bool isPerHit() const { return shape.isPerHit != 0; }
 };
 [[nodiscard]] bool operator==(const LayerPlane& a, const LayerPlane& b);
 

@@ -10,8 +10,8 @@ namespace lavalight {
 namespace {
 
 // Without samples, 0.
-double meanOf(double sum, uint32_t count) {
-    return count == 0 ? 0.0 : sum / count;
+double meanOf(double sum, double count) {
+    return count == 0.0 ? 0.0 : sum / count;
 }
 
 // The word planes of some pixels, and the way to one pixel's numbers in them.
@@ -22,13 +22,18 @@ class PixelSums {
 
     [[nodiscard]] size_t pixels() const { return pixels_; }
     [[nodiscard]] uint32_t count(size_t pixel) const { return words_[countWord_ * pixels_ + pixel]; }
-    // The estimate of the component whose words begin with `firstWord`.
-    [[nodiscard]] PixelEstimate component(size_t pixel, uint32_t firstWord, const FilmPlane& shape) const {
+    // A sum without squares or sign.
+    [[nodiscard]] double sum(size_t pixel, uint32_t firstWord) const {
+        return fromFixed(number<kSumWords>(pixel, firstWord), kSumLowestExponent);
+    }
+    // The estimate of the component whose words begin with `firstWord`; a mean over `count` without squares.
+    [[nodiscard]] PixelEstimate component(size_t pixel, uint32_t firstWord, const FilmPlane& shape,
+                                          double counted) const {
         const double sum = shape.isSigned != 0
                                ? fromSigned(number<kSignedSumWords>(pixel, firstWord), kSumLowestExponent)
                                : fromFixed(number<kSumWords>(pixel, firstWord), kSumLowestExponent);
         if (shape.hasSquares == 0)
-            return {meanOf(sum, count(pixel)), 0.0};
+            return {meanOf(sum, counted), 0.0};
         const auto square = number<kSquareWords>(pixel, firstWord + sumWordsOf(shape));
         return estimate(sum, fromFixed(square, kSquareLowestExponent), count(pixel));
     }
@@ -130,10 +135,13 @@ void resolvePixels(std::span<const uint32_t> words, const FilmLayout& layout, si
     for (size_t plane = 0; plane < layout.planes().size(); ++plane) {
         const FilmPlane& shape = layout.planes()[plane].shape;
         Layer& layer = rendering.layers[plane];
+        const std::optional<size_t> hits =
+            layout.planes()[plane].isPerHit() ? layout.find(kHitsPlane) : std::nullopt;
         for (size_t pixel = 0; pixel < sums.pixels(); ++pixel)
             for (uint32_t c = 0; c < shape.components; ++c) {
                 const uint32_t word = layout.firstWord(plane) + c * componentWordsOf(shape);
-                const PixelEstimate e = sums.component(pixel, word, shape);
+                const double counted = hits ? sums.sum(pixel, layout.firstWord(*hits)) : sums.count(pixel);
+                const PixelEstimate e = sums.component(pixel, word, shape, counted);
                 const auto at = static_cast<glm::length_t>(c);
                 layer.mean.pixels[firstPixel + pixel][at] = static_cast<float>(e.mean);
                 if (layer.variance)

@@ -83,7 +83,8 @@ void setStart(const StartingSolids& starting, FrameParameters& frame) {
 // What camera and background add to the features of the scene.
 SceneFeatures viewFeatures(const Camera& camera, const FrameParameters& frame) {
     return cameraFeatures(camera) | (frame.startsVary != 0 ? kFeatureStartsVary : 0u) |
-           (frame.hasBackground != 0 ? kFeatureBackground : 0u);
+           (frame.hasBackground != 0 ? kFeatureBackground : 0u) |
+           (frame.hasLayers != 0 ? kFeatureLayers : 0u);
 }
 
 } // namespace
@@ -115,6 +116,7 @@ FrameParameters makeFrame(const Scene& scene, const Camera& camera, const Render
     frame.clampIndirect = settings.estimator.clampIndirect;
     frame.waveSize = settings.work.waveSize;
     frame.hasBackground = settings.background.kind != Background::environment ? 1u : 0u;
+    frame.hasLayers = settings.layers != 0 ? 1u : 0u;
     if (settings.background.kind == Background::constant)
         frame.background = settings.background.radiance;
     setStart(startingSolids(scene, camera, view, clip.nearest), frame);

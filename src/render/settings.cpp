@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 
 #include "base/error.h"
+#include "film/film_layout.h"
 #include "render/setting_names.h"
 #include "render/setting_rules.h"
 #include "render/setting_text.h"
@@ -42,9 +43,24 @@ void checkSettings(const RenderSettings& settings) {
     requireAgreement(settings.estimator);
 }
 
+namespace {
+
+std::string namesOfLayers(uint32_t layers) {
+    std::vector<std::string> names;
+    for (const LayerPlane& plane : layoutOf(layers | 1u << kColorPlane).planes().subspan(1))
+        names.push_back(plane.name);
+    return fmt::format("{}", fmt::join(names, ","));
+}
+
+} // namespace
+
 uint32_t filmPlanes(const RenderSettings& settings) {
     const bool hasCoverage = settings.background.kind == Background::transparent;
-    return 1u << kColorPlane | (hasCoverage ? 1u << kCoveragePlane : 0u);
+    uint32_t planes = settings.layers | 1u << kColorPlane | (hasCoverage ? 1u << kCoveragePlane : 0u);
+    for (uint32_t row = 0; row < kFilmPlaneCount; ++row)
+        if ((settings.layers >> row & 1u) != 0 && kFilmPlanes[row].isPerHit != 0)
+            planes |= 1u << kHitsPlane;
+    return planes;
 }
 
 OptionPairs describe(const RenderSettings& settings) {
@@ -74,6 +90,8 @@ OptionPairs describe(const RenderSettings& settings) {
         add("background", "transparent");
     if (settings.background.kind == Background::constant)
         add("background", vectorText(settings.background.radiance));
+    if (settings.layers != 0)
+        add("aov", namesOfLayers(settings.layers));
     if (!settings.provenance.changedShaders.empty())
         add("shaders", fmt::format("{}", fmt::join(settings.provenance.changedShaders, ",")));
     pairs.insert(pairs.end(), settings.provenance.cameraOptions.begin(),

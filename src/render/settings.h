@@ -99,6 +99,7 @@ struct RenderSettings {
     WorkSettings work;
     LightingSettings lighting;
     BackgroundSettings background;
+    uint32_t layers = 0; // further planes of the film: bit i for row i of FILM_PLANES
     Provenance provenance;
     bool operator==(const RenderSettings&) const = default;
 };

@@ -26,6 +26,14 @@ uint32_t coverageWordOf(const FilmLayout& layout) {
     return plane ? layout.firstWord(*plane) : 0;
 }
 
+ToneRange rangeOf(const ToneSettings& tone) {
+    ToneRange range{};
+    range.scale = scaleOf(tone.exposure);
+    range.backdrop = tone.backdrop.value_or(glm::vec3(0.0f));
+    range.hasBackdrop = tone.backdrop ? 1u : 0u;
+    return range;
+}
+
 } // namespace
 
 ToneMapper::ToneMapper(gpu::Device& device, const KernelSource& source)
@@ -42,13 +50,10 @@ ToneMapper::ToneMapper(gpu::Device& device, const KernelSource& source)
 
 std::vector<uint32_t> ToneMapper::map(const Film& film, const ToneSettings& tone, size_t plane) {
     const FilmLayout& layout = film.layout();
-    ToneRange range{};
-    range.scale = scaleOf(tone.exposure);
+    ToneRange range = rangeOf(tone);
     range.countWord = layout.countWord();
     range.firstWord = layout.firstWord(plane);
     range.plane = layout.planes()[plane].shape;
-    range.backdrop = tone.backdrop.value_or(glm::vec3(0.0f));
-    range.hasBackdrop = tone.backdrop ? 1u : 0u;
     if (plane == kColorPlane)
         range.coverageWord = coverageWordOf(layout);
     std::vector<uint32_t> pixels(size_t{film.width()} * film.height());
@@ -56,6 +61,30 @@ std::vector<uint32_t> ToneMapper::map(const Film& film, const ToneSettings& tone
         const size_t first = size_t{band.firstRow} * film.width();
         mapBand(band.sums, kernels_.at(tone.curve), range,
                 std::span(pixels).subspan(first, size_t{band.rows} * film.width()));
+    }
+    return pixels;
+}
+
+std::vector<uint32_t> ToneMapper::map(const Image& image, const Image* coverage, const ToneSettings& tone) {
+    constexpr uint32_t kWords = 4; // R, G, B, coverage
+    ToneRange range = rangeOf(tone);
+    range.isImage = 1;
+    range.plane = kFilmPlanes[kColorPlane];
+    range.coverageWord = coverage != nullptr ? 3 : 0;
+    const size_t count = image.pixels.size();
+    const uint64_t most = device_->limits().maxStorageBufferBytes / (kWords * sizeof(float));
+    std::vector<uint32_t> pixels(count);
+    for (size_t first = 0; first < count; first += most) {
+        const size_t part = std::min<size_t>(most, count - first);
+        std::vector<float> words(kWords * part);
+        for (size_t i = 0; i < part; ++i) {
+            for (glm::length_t c = 0; c < 3; ++c)
+                words[static_cast<size_t>(c) * part + i] = image.pixels[first + i][c];
+            words[3 * part + i] = coverage != nullptr ? coverage->pixels[first + i].x : 1.0f;
+        }
+        gpu::Buffer buffer(*device_, "image", words.size() * sizeof(float), gpu::BufferUse::storage);
+        buffer.upload(std::span<const float>(words));
+        mapBand(buffer, kernels_.at(tone.curve), range, std::span(pixels).subspan(first, part));
     }
     return pixels;
 }

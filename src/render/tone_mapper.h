@@ -31,6 +31,10 @@ class ToneMapper {
     [[nodiscard]] std::vector<uint32_t> map(const Film& film, const ToneSettings& tone,
                                             size_t plane = kColorPlane);
 
+    // The same of an image, with its coverage, of which x counts, or null. Values are finite.
+    [[nodiscard]] std::vector<uint32_t> map(const Image& image, const Image* coverage,
+                                            const ToneSettings& tone);
+
     // Whether the kernel's code is another by `source`. Throws Error as `source` does.
     [[nodiscard]] bool isChanged(const KernelSource& source) const;
 

@@ -3,6 +3,7 @@
 #include <array>
 #include <cassert>
 
+#include "shared/path_layers.h"
 #include "shared/wavefront.h"
 
 namespace lavalight {
@@ -11,13 +12,15 @@ namespace {
 constexpr std::array kPathStart{KernelStep{"generate", Over::slots}};
 constexpr std::array kPathBounce{KernelStep{"extend", Over::rays}, KernelStep{"shade", Over::rays},
                                  KernelStep{"prepare", Over::once}, KernelStep{"connect", Over::shadowRays}};
-constexpr std::array kPathWavefrontState{
-    SlotBuffer{"Rays", "rays", sizeof(Ray)}, SlotBuffer{"Hits", "hits", sizeof(Hit)},
-    SlotBuffer{"Paths", "paths", sizeof(Path)}, SlotBuffer{"ShadowRays", "shadow rays", sizeof(ShadowRay)}};
+constexpr SlotBuffer kLayers{"Layers", "path layers", sizeof(PathLayers), kFeatureLayers};
+constexpr std::array kPathWavefrontState{SlotBuffer{"Rays", "rays", sizeof(Ray)},
+                                         SlotBuffer{"Hits", "hits", sizeof(Hit)},
+                                         SlotBuffer{"Paths", "paths", sizeof(Path)},
+                                         SlotBuffer{"ShadowRays", "shadow rays", sizeof(ShadowRay)}, kLayers};
 constexpr std::array kPathFusedState{
     SlotBuffer{"Paths", "paths", sizeof(Path)},
-    SlotBuffer{"WaitingPaths", "waiting paths", sizeof(WaitingPath), kFeatureManyTriangles}};
-constexpr std::array kPathHostedState{SlotBuffer{"Paths", "paths", sizeof(Path)}};
+    SlotBuffer{"WaitingPaths", "waiting paths", sizeof(WaitingPath), kFeatureManyTriangles}, kLayers};
+constexpr std::array kPathHostedState{SlotBuffer{"Paths", "paths", sizeof(Path)}, kLayers};
 
 } // namespace
 

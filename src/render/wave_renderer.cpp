@@ -30,7 +30,7 @@ std::unique_ptr<WaveRenderer> makeWaveRenderer(gpu::Device& device, const WaveIn
 }
 
 SlotState::SlotState(gpu::Device& device, const WaveInputs& inputs) {
-    const SceneFeatures features = inputs.scene.features();
+    const SceneFeatures features = inputs.features;
     for (const Phase& phase : inputs.phases)
         for (const SlotBuffer& wanted : stateOf(*phase.transport, inputs.schedule)) {
             const bool isUsed = wanted.onlyWith == 0 || (wanted.onlyWith & features) != 0;

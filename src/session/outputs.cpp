@@ -17,6 +17,8 @@
 #include "image/exr.h"
 #include "image/png.h"
 #include "render/setting_names.h"
+#include "session/denoise_names.h"
+#include "session/denoised.h"
 #include "session/exposure.h"
 
 namespace lavalight {
@@ -99,8 +101,15 @@ void requireOutputs(const Outputs& outputs) {
 
 void writeOutputs(RenderJob& job, const Outputs& outputs, OutputStyle& style, ToneMapper* toneMapper) {
     RenderReport& report = job.report;
-    const Rendering rendering = job.renderer->rendering();
+    Rendering rendering = job.renderer->rendering();
     fillResults(report, *job.renderer, *job.device, rendering, job.scene);
+    if (style.denoiser) {
+        denoise(rendering, *style.denoiser, style.quality, style.layers);
+        report.ledger.push_back(
+            {"denoised", fmt::format("the PNG and the layer {}, by Open Image Denoise {}, {}", kDenoisedLayer,
+                                     style.denoiser->version(), nameOf(style.quality))});
+        job.watch.lap("denoise");
+    }
     if (report.tallies.crowdedPaths > 0)
         warn(report, crowdedText(job.scene, report.tallies));
     report.rays = report.rays + job.before.rays;
@@ -113,7 +122,12 @@ void writeOutputs(RenderJob& job, const Outputs& outputs, OutputStyle& style, To
         if (std::exchange(style.exposesByImage, false))
             style.tone.exposure = autoExposure(rendering);
         report.tone = style.tone;
-        const std::vector<uint32_t> pixels = toneMapper->map(job.renderer->film(), style.tone);
+        const Layer* denoised = rendering.find(kDenoisedLayer);
+        const Layer* coverage = rendering.find("coverage");
+        const std::vector<uint32_t> pixels =
+            denoised != nullptr
+                ? toneMapper->map(denoised->mean, coverage != nullptr ? &coverage->mean : nullptr, style.tone)
+                : toneMapper->map(job.renderer->film(), style.tone);
         warn(report, extremesText(pixels));
         writePng(outputs.png, report.settings.image.width, report.settings.image.height, pixels,
                  textsOf(style.tone));

@@ -18,6 +18,7 @@
 #include "render/film.h"
 #include "render/tone_mapper.h"
 #include "shared/frame.h"
+#include "shared/path_layers.h"
 #include "shared/wavefront.h"
 #include "support/patched_kernel.h"
 #include "support/random_numbers.h"
@@ -52,6 +53,9 @@ class FilmTest : public DeviceTest {
         gpu::ResourceTable resources;
         resources.set("Frame", frame);
         resources.set("Paths", paths);
+        const gpu::Buffer layers(device(), "layers", sizeof(PathLayers),
+                                 gpu::BufferUse::storage); // that none reads
+        resources.set("Layers", layers);
         resources.set("Film", film.bands().front().sums);
         resources.set("Tallies", film.tallies());
         const gpu::BoundKernel bound(device(), kernel, resources);
@@ -148,21 +152,21 @@ TEST_F(FilmTest, NegativeRadianceIsCountedAndTakenForZero) {
 // what the film does for any layer.
 class SignedLayerTest : public FilmTest {
   protected:
-    static constexpr uint32_t kLean = 2; // the row
+    static constexpr uint32_t kLean = 10; // the row
     // x - y and -z of the radiance.
     [[nodiscard]] static gpu::KernelCode leaningKernel(bool hasSquares) {
-        const std::string row = R"(PLANE(kCoveragePlane, "coverage", "A", 1u, 0u, 0u))";
-        const std::string added = hasSquares ? R"( PLANE(2u, "lean", "lean.X,lean.Y", 2u, 1u, 1u))"
-                                             : R"( PLANE(2u, "lean", "lean.X,lean.Y", 2u, 1u, 0u))";
+        const std::string row = R"("guide-normal.X,guide-normal.Y,guide-normal.Z", 3u, 1u, 0u, 0u))";
+        const std::string added = hasSquares ? R"( PLANE(10u, "lean", "lean.X,lean.Y", 2u, 1u, 1u, 0u))"
+                                             : R"( PLANE(10u, "lean", "lean.X,lean.Y", 2u, 1u, 0u, 0u))";
         const std::string fill = "    return paths[slot].radiance;";
-        const std::string line = "    if (plane == 2u) return vec3(paths[slot].radiance.x - "
+        const std::string line = "    if (plane == 10u) return vec3(paths[slot].radiance.x - "
                                  "paths[slot].radiance.y, -paths[slot].radiance.z, 0.0);\n";
         return patchedKernel("accumulate", {{"shared/film.h", row, row + added},
                                             {"kernels/accumulate.comp", fill, line + fill}});
     }
     [[nodiscard]] static FilmLayout layout(bool hasSquares) {
         std::vector<LayerPlane> planes(colorLayout().planes().begin(), colorLayout().planes().end());
-        planes.push_back({"lean", {"lean.X", "lean.Y"}, {2, 1, hasSquares ? 1u : 0u}});
+        planes.push_back({"lean", {"lean.X", "lean.Y"}, {2, 1, hasSquares ? 1u : 0u, 0}});
         return FilmLayout(std::move(planes));
     }
     [[nodiscard]] gpu::Kernel kernel(bool hasSquares, uint32_t asked = 1u << kColorPlane | 1u << kLean) {

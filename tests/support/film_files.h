@@ -14,8 +14,8 @@ namespace lavalight::test {
 // A film with negative values in one of its layers, which no render asks for.
 inline FilmLayout signedLayout() {
     std::vector<LayerPlane> planes(colorLayout().planes().begin(), colorLayout().planes().end());
-    planes.push_back({"tilt", {"tilt.X", "tilt.Y"}, {2, 1, 0}});
-    planes.push_back({"height", {"height.Z"}, {1, 1, 1}});
+    planes.push_back({"tilt", {"tilt.X", "tilt.Y"}, {2, 1, 0, 0}});
+    planes.push_back({"height", {"height.Z"}, {1, 1, 1, 0}});
     return FilmLayout(std::move(planes));
 }
 

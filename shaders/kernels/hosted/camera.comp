@@ -1,5 +1,6 @@
 #version 460
 // Starts the paths of a wave: a record for each slot.
+#include "scene/path_layers.glsl"
 #include "scene/path_rays.glsl"
 #include "scene/records.glsl"
 
@@ -12,4 +13,5 @@ void main() {
     const Ray ray = cameraRayOf(slot);
     writePlane(kPlaneOrigin, slot, ray.origin, slot | kRecordGoesOn);
     writeNext(slot, ray, kNewPath);
+    startLayers(slot);
 }

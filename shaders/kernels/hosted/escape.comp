@@ -13,5 +13,7 @@ void main() {
     Path path = readPath(record);
     path.bsdfPdf = pdfOfFinding(ray, path.bsdfPdf);
     writePlane(kPlaneOrigin, record, vec3(0.0), slotOfRecord(record) | kRecordEmits);
-    writePlane(kPlaneEmitted, record, escape(ray, range.bounce, path), 0u);
+    const vec3 found = escape(ray, range.bounce, path);
+    writePlane(kPlaneEmitted, record, found, 0u);
+    recordEmission(slotOfRecord(record), range.bounce, found);
 }

@@ -14,6 +14,7 @@
 #include "cli/interrupt.h"
 #include "cli/progress.h"
 #include "session/builtin.h"
+#include "session/denoised.h"
 #include "session/frame_sequence.h"
 #include "session/lit_scene.h"
 
@@ -36,7 +37,8 @@ void printSummary(const RenderReport& report) {
 
 RenderCommand::RenderCommand(CLI::App& app)
     : Command(app, "render", "Render a scene to an image"), options_(parser()), sceneOptions_(parser()),
-      frames_(parser()), shaders_(parser()), tone_(parser()), background_(parser()), checkpoints_(parser()) {
+      frames_(parser()), shaders_(parser()), tone_(parser()), background_(parser()), layers_(parser()),
+      denoise_(parser()), checkpoints_(parser()) {
     shaders_.declareWatch(parser());
     parser()
         .add_option("input", scene_,
@@ -61,16 +63,28 @@ RenderCommand::RenderCommand(CLI::App& app)
 RenderPlan RenderCommand::plan() const {
     RenderPlan plan = options_.plan(scene_);
     plan.settings.background = background_.settings();
+    plan.settings.layers = layers_.layers();
     if (frames_.isTurntable() && plan.camera.view == NamedView::none)
         plan.camera.view = NamedView::threeQuarter;
     plan.style = {options_.keepsFilm(), tone_.settings(), tone_.isAutomatic()};
     plan.style.tone.backdrop = background_.backdrop();
+    plan.style.layers = plan.settings.layers;
+    plan.style.quality = denoise_.quality();
+    if (plan.style.quality != DenoiseQuality::off) {
+        plan.style.denoiser = std::make_shared<const Denoiser>();
+        plan.settings.layers |= layersForDenoising();
+    }
     return plan;
 }
 
 void RenderCommand::checkOptions() const {
     if (tone_.isGiven() && outputs_.png.empty())
         throw UsageError("--tonemap and --exposure are for a PNG; give -o OUT.png, or leave them out");
+    if (denoise_.quality() != DenoiseQuality::off && options_.keepsFilm())
+        throw UsageError(
+            "--denoise and --samples: a part of the samples is not denoised; join the parts without it");
+    if (layers_.layers() != 0 && outputs_.exr.empty())
+        throw UsageError("--aov is for an EXR; give -o OUT.exr, or leave it out");
     if (frames_.isAsked() && shaders_.isWatching())
         throw UsageError(
             "--watch renders one image over and over, --frames and --turntable several: give one "

@@ -9,7 +9,9 @@
 #include "cli/command.h"
 #include "cli/options/background_options.h"
 #include "cli/options/checkpoint_options.h"
+#include "cli/options/denoise_options.h"
 #include "cli/options/frame_options.h"
+#include "cli/options/layer_options.h"
 #include "cli/options/render_options.h"
 #include "cli/options/scene_options.h"
 #include "cli/options/shader_options.h"
@@ -45,6 +47,8 @@ class RenderCommand : public Command {
     ShaderOptions shaders_;
     ToneOptions tone_;
     BackgroundOptions background_;
+    LayerOptions layers_;
+    DenoiseOptions denoise_;
     CheckpointOptions checkpoints_;
     std::string scene_ = "cornell-box";
     std::vector<std::string> pictures_; // -o

@@ -59,6 +59,12 @@ TEST(FilmLayout, ItsTextIsReadBack) {
     EXPECT_EQ(parseFilmLayout(textOf(colorLayout())), colorLayout());
     EXPECT_EQ(parseFilmLayout(textOf(signedLayout())), signedLayout());
     EXPECT_FALSE(signedLayout() == colorLayout());
+    const FilmLayout depth = layoutOf(1u << kColorPlane | 1u << kHitsPlane | 1u << kDepthPlane);
+    EXPECT_EQ(textOf(depth),
+              "color: R,G,B unsigned squares; hits: hits.N unsigned; depth: depth.Z signed per-hit");
+    EXPECT_EQ(parseFilmLayout(textOf(depth)), depth);
+    EXPECT_EQ(depth.find(kDepthPlane), 2u);
+    EXPECT_EQ(depth.find(kAlbedoPlane), std::nullopt);
 }
 
 TEST(FilmLayout, TextThatIsNoLayoutIsNone) {

@@ -1,0 +1,26 @@
+#include "cli/options/denoise_options.h"
+
+#include "session/denoise_names.h"
+
+namespace lavalight {
+
+DenoiseOptions::DenoiseOptions(CLI::App& parser) : parser_(&parser) {
+    parser
+        .add_option("--denoise", quality_,
+                    "Denoise the PNG, by Intel Open Image Denoise; the EXR keeps its colour and gets a layer "
+                    "denoised. Without a word: high")
+        ->type_name("high|balanced|fast")
+        ->expected(0, 1)
+        ->check(CLI::IsMember({"", "high", "balanced", "fast"}));
+}
+
+DenoiseQuality DenoiseOptions::quality() const {
+    if (parser_->count("--denoise") == 0)
+        return DenoiseQuality::off;
+    for (const SettingName<DenoiseQuality>& name : settingNames<DenoiseQuality>())
+        if (name.name == quality_)
+            return name.value;
+    return DenoiseQuality::high;
+}
+
+} // namespace lavalight

@@ -1,0 +1,63 @@
+#include "cli/options/layer_options.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "base/error.h"
+#include "cli/options/option_values.h"
+#include "film/film_layout.h"
+
+namespace lavalight {
+namespace {
+
+// A plane that somebody may ask for; the others come with what needs them.
+struct Offer {
+    std::string name;
+    uint32_t row = 0;
+};
+
+std::vector<Offer> offers() {
+    std::vector<Offer> offers;
+    for (const uint32_t row : {kAlbedoPlane, kNormalPlane, kDepthPlane, kPositionPlane, kEmissionPlane})
+        offers.push_back({layoutOf(1u << kColorPlane | 1u << row).planes()[1].name, row});
+    return offers;
+}
+
+std::vector<std::string> namesOf(const std::vector<Offer>& offers) {
+    std::vector<std::string> names;
+    for (const Offer& offer : offers)
+        names.push_back(offer.name);
+    return names;
+}
+
+} // namespace
+
+LayerOptions::LayerOptions(CLI::App& parser) {
+    parser
+        .add_option(
+            "--aov", names_,
+            fmt::format("Layers of the EXR beside the colour, separated by commas: {}. They are means of the "
+                        "samples, as the colour is",
+                        fmt::join(namesOf(offers()), ", ")))
+        ->type_name("LIST");
+}
+
+uint32_t LayerOptions::layers() const {
+    if (names_.empty())
+        return 0;
+    const std::vector<Offer> all = offers();
+    uint32_t layers = 0;
+    for (const std::string_view name : splitAt(names_, ',')) {
+        const auto found =
+            std::find_if(all.begin(), all.end(), [&](const Offer& offer) { return offer.name == name; });
+        if (found == all.end())
+            throw UsageError(fmt::format("--aov: there is no layer \"{}\"; there are {}", name,
+                                         fmt::join(namesOf(all), ", ")));
+        layers |= 1u << found->row;
+    }
+    return layers;
+}
+
+} // namespace lavalight

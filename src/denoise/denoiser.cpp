@@ -1,0 +1,190 @@
+#include "denoise/denoiser.h"
+
+#include <cassert>
+#include <cstddef>
+#include <cstdlib>
+#include <filesystem>
+#include <optional>
+#include <system_error>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/os/shared_library.h"
+
+namespace lavalight {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kFileName = "libOpenImageDenoise.so.2";
+constexpr const char* kVariable = "LAVALIGHT_OIDN";
+
+// Names and values of Open Image Denoise's C interface, which 2.x keeps.
+struct Device;
+struct Filter;
+constexpr int kDeviceOfProcessor = 1;
+constexpr int kFloat3 = 3;
+constexpr int kQualityFast = 4;
+constexpr int kQualityBalanced = 5;
+constexpr int kQualityHigh = 6;
+
+int qualityOf(DenoiseQuality quality) {
+    switch (quality) {
+    case DenoiseQuality::fast:
+        return kQualityFast;
+    case DenoiseQuality::balanced:
+        return kQualityBalanced;
+    case DenoiseQuality::high:
+    case DenoiseQuality::off:
+        break;
+    }
+    return kQualityHigh;
+}
+
+std::optional<fs::path> folderOf(const char* variable) {
+    const char* value = std::getenv(variable);
+    return value != nullptr && *value != '\0' ? std::optional<fs::path>(value) : std::nullopt;
+}
+
+// lib/python3.*/site-packages and dist-packages below a folder.
+void addPythonPackages(const fs::path& root, std::vector<fs::path>& files) {
+    std::error_code code;
+    for (const fs::directory_entry& python : fs::directory_iterator(root / "lib", code))
+        if (python.path().filename().string().starts_with("python3"))
+            for (const char* packages : {"site-packages", "dist-packages"})
+                files.push_back(python.path() / packages / "pyoidn/oidn/lib" / kFileName);
+}
+
+// Files that may be the library, in order.
+std::vector<fs::path> candidates() {
+    std::vector<fs::path> files{kFileName};
+    const std::optional<fs::path> home = folderOf("HOME");
+    if (const auto data = folderOf("XDG_DATA_HOME"))
+        files.push_back(*data / "lavalight/oidn/lib" / kFileName);
+    else if (home)
+        files.push_back(*home / ".local/share/lavalight/oidn/lib" / kFileName);
+    if (const auto environment = folderOf("VIRTUAL_ENV"))
+        addPythonPackages(*environment, files);
+    if (home)
+        addPythonPackages(*home / ".local", files);
+    addPythonPackages("/usr/local", files);
+    addPythonPackages("/usr", files);
+    return files;
+}
+
+SharedLibrary load() {
+    if (const auto named = folderOf(kVariable)) {
+        std::error_code code;
+        return SharedLibrary(fs::is_directory(*named, code) ? *named / kFileName : *named);
+    }
+    for (const fs::path& file : candidates()) {
+        std::error_code code;
+        if (file.has_parent_path() && !fs::exists(file, code))
+            continue;
+        try {
+            return SharedLibrary(file);
+        } catch (const Error&) {
+            if (file.has_parent_path()) // it is there, and cannot be used
+                throw;
+        }
+    }
+    throw Error(fmt::format(
+        "cannot denoise: there is no Open Image Denoise ({}); get it by \"tools/setup --denoiser\" or "
+        "\"pip install pyoidn\", or name its folder in {}",
+        kFileName, kVariable));
+}
+
+} // namespace
+
+struct Denoiser::Library {
+    SharedLibrary file = load();
+    Device* (*newDevice)(int) = file.function<Device*(int)>("oidnNewDevice");
+    void (*commitDevice)(Device*) = file.function<void(Device*)>("oidnCommitDevice");
+    void (*releaseDevice)(Device*) = file.function<void(Device*)>("oidnReleaseDevice");
+    int (*deviceInt)(Device*, const char*) = file.function<int(Device*, const char*)>("oidnGetDeviceInt");
+    int (*error)(Device*, const char**) = file.function<int(Device*, const char**)>("oidnGetDeviceError");
+    Filter* (*newFilter)(Device*,
+                         const char*) = file.function<Filter*(Device*, const char*)>("oidnNewFilter");
+    void (*setImage)(Filter*, const char*, void*, int, size_t, size_t, size_t, size_t, size_t) =
+        file.function<void(Filter*, const char*, void*, int, size_t, size_t, size_t, size_t, size_t)>(
+            "oidnSetSharedFilterImage");
+    void (*setBool)(Filter*, const char*,
+                    bool) = file.function<void(Filter*, const char*, bool)>("oidnSetFilterBool");
+    void (*setInt)(Filter*, const char*,
+                   int) = file.function<void(Filter*, const char*, int)>("oidnSetFilterInt");
+    void (*commitFilter)(Filter*) = file.function<void(Filter*)>("oidnCommitFilter");
+    void (*execute)(Filter*) = file.function<void(Filter*)>("oidnExecuteFilter");
+    void (*releaseFilter)(Filter*) = file.function<void(Filter*)>("oidnReleaseFilter");
+    Device* device = nullptr;
+
+    void requireNoError() const {
+        const char* message = nullptr;
+        if (error(device, &message) != 0)
+            throw Error(fmt::format("cannot denoise: {}",
+                                    message != nullptr ? message : "Open Image Denoise failed"));
+    }
+
+    // A filter for ray-traced images, released at the end.
+    [[nodiscard]] auto makeFilter() const {
+        return std::unique_ptr<Filter, void (*)(Filter*)>(newFilter(device, "RT"), releaseFilter);
+    }
+
+    // The library reads inputs and writes the output alone.
+    void give(Filter* filter, const char* name, const Image& image) const {
+        static_assert(sizeof(glm::vec3) == 3 * sizeof(float));
+        auto* pixels = const_cast<glm::vec3*>(image.pixels.data());
+        setImage(filter, name, pixels, kFloat3, image.width, image.height, 0, 0, 0);
+    }
+
+    void run(Filter* filter, DenoiseQuality quality) const {
+        setInt(filter, "quality", qualityOf(quality));
+        commitFilter(filter);
+        execute(filter);
+        requireNoError();
+    }
+
+    [[nodiscard]] Image prefiltered(const char* name, const Image& guide) const {
+        Image clean(guide.width, guide.height);
+        const auto filter = makeFilter();
+        give(filter.get(), name, guide);
+        give(filter.get(), "output", clean);
+        run(filter.get(), DenoiseQuality::high);
+        return clean;
+    }
+};
+
+Denoiser::Denoiser() : library_(std::make_unique<Library>()) {
+    library_->device = library_->newDevice(kDeviceOfProcessor);
+    library_->commitDevice(library_->device);
+    library_->requireNoError();
+}
+
+Denoiser::~Denoiser() {
+    library_->releaseDevice(library_->device);
+}
+
+std::string Denoiser::version() const {
+    const auto part = [&](const char* name) { return library_->deviceInt(library_->device, name); };
+    return fmt::format("{}.{}.{}", part("versionMajor"), part("versionMinor"), part("versionPatch"));
+}
+
+Image Denoiser::denoise(const Image& color, const DenoiseGuides& guides, DenoiseQuality quality) const {
+    assert(quality != DenoiseQuality::off);
+    const bool isClean = quality == DenoiseQuality::high;
+    const Image albedo = isClean ? library_->prefiltered("albedo", guides.albedo) : guides.albedo;
+    const Image normal = isClean ? library_->prefiltered("normal", guides.normal) : guides.normal;
+    Image output(color.width, color.height);
+    const auto filter = library_->makeFilter();
+    library_->give(filter.get(), "color", color);
+    library_->give(filter.get(), "albedo", albedo);
+    library_->give(filter.get(), "normal", normal);
+    library_->give(filter.get(), "output", output);
+    library_->setBool(filter.get(), "hdr", true);
+    library_->setBool(filter.get(), "cleanAux", isClean);
+    library_->run(filter.get(), quality);
+    return output;
+}
+
+} // namespace lavalight

@@ -1,0 +1,47 @@
+// Intel Open Image Denoise, which is looked for when it is asked for: nothing of it is needed to build.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "image/image.h"
+
+namespace lavalight {
+
+enum class DenoiseQuality {
+    off,
+    fast, // for windows
+    balanced,
+    high // the guides are denoised first
+};
+
+// What a denoiser is told of an image besides its colour. All images have one size.
+struct DenoiseGuides {
+    Image albedo; // in [0, 1]
+    Image normal; // means of unit vectors
+};
+
+class Denoiser {
+  public:
+    // Loads the library, 2.0 or newer: from the file or folder that LAVALIGHT_OIDN names, the system's paths,
+    // the folder where `tools/setup --denoiser` puts it, or the Python package pyoidn. Throws Error that says
+    // how to get it.
+    Denoiser();
+    ~Denoiser();
+    Denoiser(const Denoiser&) = delete;
+    Denoiser& operator=(const Denoiser&) = delete;
+
+    // Of the library: "2.5.1".
+    [[nodiscard]] std::string version() const;
+
+    // `color`: radiance, finite and not negative, of any brightness; `quality` is not off. Not for two
+    // threads at a time. Throws Error as the library does.
+    [[nodiscard]] Image denoise(const Image& color, const DenoiseGuides& guides,
+                                DenoiseQuality quality) const;
+
+  private:
+    struct Library;
+    std::unique_ptr<Library> library_;
+};
+
+} // namespace lavalight

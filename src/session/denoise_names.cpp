@@ -1,0 +1,20 @@
+#include "session/denoise_names.h"
+
+#include <array>
+
+namespace lavalight {
+namespace {
+
+constexpr std::array<SettingName<DenoiseQuality>, 4> kQualities{{{"off", DenoiseQuality::off},
+                                                                 {"high", DenoiseQuality::high},
+                                                                 {"balanced", DenoiseQuality::balanced},
+                                                                 {"fast", DenoiseQuality::fast}}};
+
+} // namespace
+
+template <>
+std::span<const SettingName<DenoiseQuality>> settingNames() {
+    return kQualities;
+}
+
+} // namespace lavalight

@@ -1,0 +1,117 @@
+// Denoised pictures are nearer to the converged ones, and leave lamps alone.
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "base/error.h"
+#include "image/exr.h"
+#include "session/builtin.h"
+#include "session/denoised.h"
+#include "support/environment_variable.h"
+#include "support/render_scene.h"
+#include "support/temporary_folder.h"
+#include "support/test_device.h"
+
+namespace lavalight::test {
+namespace {
+
+class Denoise : public DeviceTest {
+  protected:
+    void SetUp() override {
+        DeviceTest::SetUp();
+        try {
+            denoiser_ = std::make_unique<Denoiser>();
+        } catch (const Error& error) {
+            GTEST_SKIP() << error.what();
+        }
+    }
+    // Of 16 samples, with the layer of light that is seen directly.
+    [[nodiscard]] Rendering denoised(const Scene& scene, const Image& reference, DenoiseQuality quality) {
+        RenderSettings settings = imageSettings(reference.width, reference.height, 16);
+        settings.layers = layersForDenoising();
+        Rendering rendering = renderScene(device(), scene, settings).rendering;
+        denoise(rendering, *denoiser_, quality, 1u << kEmissionPlane);
+        return rendering;
+    }
+    std::unique_ptr<Denoiser> denoiser_;
+};
+
+double meanOfAll(const Image& image) {
+    double sum = 0.0;
+    for (const glm::vec3& pixel : image.pixels)
+        sum += pixel.x + pixel.y + pixel.z;
+    return sum;
+}
+
+// Mean over the pixels without directly seen light, but for the worst in a thousand.
+double relativeError(const Image& image, const Image& reference, const Image& emission) {
+    std::vector<double> errors;
+    for (size_t i = 0; i < image.pixels.size(); ++i)
+        if (emission.pixels[i] == glm::vec3(0.0f)) {
+            const glm::dvec3 r(reference.pixels[i]);
+            const glm::dvec3 d = glm::dvec3(image.pixels[i]) - r;
+            errors.push_back(glm::dot(d * d / (r * r + 0.01), glm::dvec3(1.0 / 3.0)));
+        }
+    std::sort(errors.begin(), errors.end());
+    errors.resize(errors.size() - errors.size() / 1000);
+    double sum = 0.0;
+    for (const double error : errors)
+        sum += error;
+    return sum / static_cast<double>(errors.size());
+}
+
+TEST_F(Denoise, QuartersTheErrorOfSixteenSamplesAndKeepsTheMeanAndTheLamps) {
+    for (const char* name : {"cornell-box", "many-lights", "veach-mis"}) {
+        const Image reference = readExr(std::filesystem::path(LAVALIGHT_SOURCE_DIR) / "tests/references" /
+                                        (std::string(name) + ".exr"))
+                                    .radiance();
+        for (const DenoiseQuality quality : {DenoiseQuality::high, DenoiseQuality::fast}) {
+            SCOPED_TRACE(std::string(name) + " " + std::to_string(static_cast<int>(quality)));
+            const Rendering rendering = denoised(loadScene(name), reference, quality);
+            const Image& emission = rendering.find("emission")->mean;
+            const Image& clean = rendering.find(kDenoisedLayer)->mean;
+            EXPECT_EQ(rendering.find("guide-albedo"), nullptr); // nobody asked for it
+            EXPECT_LT(relativeError(clean, reference, emission),
+                      0.25 * relativeError(rendering.radiance(), reference, emission));
+            EXPECT_NEAR(meanOfAll(clean) / meanOfAll(rendering.radiance()), 1.0, 0.02);
+            double lamp = 0.0;
+            double change = 0.0;
+            for (size_t i = 0; i < clean.pixels.size(); ++i)
+                if (emission.pixels[i].x > 1.0f) {
+                    lamp += rendering.radiance().pixels[i].x;
+                    change += std::abs(clean.pixels[i].x - rendering.radiance().pixels[i].x);
+                }
+            EXPECT_GT(lamp, 0.0);
+            EXPECT_LT(change, 0.01 * lamp);
+        }
+    }
+}
+
+TEST_F(Denoise, GivesEqualBitsEachTime) {
+    const Image size(96, 64);
+    const Scene scene = loadScene("cornell-glass");
+    const Rendering once = denoised(scene, size, DenoiseQuality::high);
+    EXPECT_EQ(once.find(kDenoisedLayer)->mean.pixels,
+              denoised(scene, size, DenoiseQuality::high).find(kDenoisedLayer)->mean.pixels);
+}
+
+TEST(DenoiserLibrary, WhatIsNamedAndIsNoneIsRefusedByName) {
+    const TemporaryFolder folder;
+    const EnvironmentVariable named("LAVALIGHT_OIDN", folder.path().string());
+    try {
+        const Denoiser none;
+        FAIL() << "loaded";
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("libOpenImageDenoise.so.2"), std::string::npos)
+            << error.what();
+    }
+}
+
+} // namespace
+} // namespace lavalight::test
