@@ -4,6 +4,7 @@
 #include "lib/math/onb.glsl"
 #include "lib/sampling/warp.glsl"
 #include "scene/light_sample.glsl"
+#include "scene/sun.glsl"
 #include "shared/bindings.h"
 #include "shared/frame.h"
 
@@ -68,7 +69,8 @@ vec3 environmentRadiance(FrameParameters parameters, vec3 wi) {
     if (!sceneHas(kFeatureEnvironmentMap))
         return parameters.environment;
     const EnvironmentPlace p = environmentPlace(parameters, environmentPoint(parameters, wi));
-    return parameters.environment * interpolated(fetchEnvironmentCell(parameters, p.cell), p.place);
+    return parameters.environment * (interpolated(fetchEnvironmentCell(parameters, p.cell), p.place) +
+                                     sunRadiance(parameters, wi));
 }
 
 // A constant environment is sampled by the cosine around the receiver's normal, which leaves a diffuse surface no variance
@@ -79,7 +81,7 @@ float environmentPdf(FrameParameters parameters, vec3 wi, float cosTheta) {
     const vec2 uv = environmentPoint(parameters, wi);
     EnvironmentPlace p = environmentPlace(parameters, uv);
     p.place.y = equirectangularRowToUnit(uv.y, environmentRow(parameters, p.cell.y));
-    return environmentDensity(fetchEnvironmentCell(parameters, p.cell), p.place);
+    return withSunPdf(parameters, wi, environmentDensity(fetchEnvironmentCell(parameters, p.cell), p.place));
 }
 
 const float kLargestPlaceInCell = 1.0 - 5.9604644775390625e-8; // 1 - 2^-24
@@ -118,6 +120,13 @@ vec2 squareToEnvironmentCell(vec2 u, EnvironmentCell cell) {
 }
 
 LightSample sampleEnvironmentMap(FrameParameters parameters, vec2 u) {
+    if (sceneHas(kFeatureSun) && !isSecond(parameters.sunShare, u.x)) {
+        LightSample sun = kNoLightSample;
+        sun.wi = squareToSun(parameters, u);
+        sun.radiance = environmentRadiance(parameters, sun.wi);
+        sun.pdf = environmentPdf(parameters, sun.wi, 1.0);
+        return sun;
+    }
     const EnvironmentPlace pick = pickEnvironmentCell(parameters, u);
     const EnvironmentCell cell = fetchEnvironmentCell(parameters, pick.cell);
     const vec2 place = squareToEnvironmentCell(pick.place, cell);
@@ -126,7 +135,7 @@ LightSample sampleEnvironmentMap(FrameParameters parameters, vec2 u) {
     light.wi = unitToEquirectangularRow(column - parameters.environmentRotation, place.y,
                                         environmentRow(parameters, pick.cell.y));
     light.radiance = environmentRadiance(parameters, light.wi);
-    light.pdf = environmentDensity(cell, place);
+    light.pdf = withSunPdf(parameters, light.wi, environmentDensity(cell, place));
     return light;
 }
 

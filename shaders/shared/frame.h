@@ -42,7 +42,11 @@ struct FrameParameters {
     uint hasBackground; // kFeatureBackground is wanted
     uint hasLayers;     // kFeatureLayers is wanted
     vec3 background; // radiance
-    uint unused2;
+    float sunShare;  // probability that a sample of the environment is one of the sun
+    vec3 sunDirection;
+    float sunSize; // 1 - the cosine of its angular radius
+    vec3 sunRadiance;
+    uint unused1;
 };
 
 // Specialisation constants: the estimator settings that pick code (lib/estimator.glsl).

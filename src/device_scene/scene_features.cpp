@@ -157,6 +157,7 @@ SceneFeatures sceneFeatures(const Scene& scene, const Lights& lights) {
     features |= lights.tree.nodes.empty() ? 0u : kFeatureLightTree;
     features |= lights.table.empty() ? 0u : kFeatureLights;
     features |= lights.environment ? kFeatureEnvironmentLight : 0u;
+    features |= lights.sun ? kFeatureSun : 0u;
     return features;
 }
 

@@ -7,6 +7,7 @@
 #include "gpu/buffer.h"
 #include "gpu/commands.h"
 #include "hosted/host_rays.h"
+#include "shared/path_layers.h"
 
 namespace lavalight {
 namespace {
@@ -27,6 +28,7 @@ class PathInspector::State {
           hit_(device, "hit", sizeof(Hit), gpu::BufferUse::storage),
           shadowRay_(device, "shadow ray", sizeof(ShadowRay), gpu::BufferUse::storage),
           vertex_(device, "traced vertex", sizeof(TracedVertex), gpu::BufferUse::storage),
+          layers_(device, "path layers", sizeof(PathLayers), gpu::BufferUse::storage),
           bound_(device, kernel, resources(renderer)), commands_(device) {
         frame_.upload(std::span(&renderer.frame(), 1));
     }
@@ -54,10 +56,11 @@ class PathInspector::State {
         resources.set("Hits", hit_);
         resources.set("ShadowRays", shadowRay_);
         resources.set("TracedOut", vertex_);
+        resources.set("Layers", layers_); // written, where the render records them, and not read
         return resources;
     }
 
-    gpu::Buffer frame_, ray_, path_, hit_, shadowRay_, vertex_;
+    gpu::Buffer frame_, ray_, path_, hit_, shadowRay_, vertex_, layers_;
     gpu::BoundKernel bound_;
     gpu::Commands commands_;
 };

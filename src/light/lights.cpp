@@ -60,18 +60,33 @@ void addPunctuals(const Scene& scene, bool atInfinity, Lights& lights) {
     }
 }
 
+// Of samples, that the sun gets beside the rest of the environment: by what they bring, but enough for both.
+double shareOf(const glm::dvec3& ofSun, const glm::dvec3& ofMap) {
+    const double sun = ofSun.x + ofSun.y + ofSun.z;
+    const double all = sun + ofMap.x + ofMap.y + ofMap.z;
+    return all > 0.0 ? std::clamp(sun / all, 0.2, 0.8) : 0.5;
+}
+
 // A black environment leaves no trace. Around an empty scene, which it cannot light, an environment is seen
 // all the same.
 void addEnvironment(const Scene& scene, const glm::vec3& radiance, Lights& lights) {
     glm::dvec3 mean(radiance);
     if (scene.environmentMap && radiance != glm::vec3(0.0f)) {
         lights.environmentMap = makeEnvironmentDistribution(scene.environmentMap->image);
-        mean *= lights.environmentMap->meanRadiance;
+        glm::dvec3 ofMap = lights.environmentMap->meanRadiance;
+        lights.sun = scene.environmentMap->sun;
+        if (lights.sun) {
+            const glm::dvec3 ofSun = 0.5 * double{lights.sun->size} * glm::dvec3(lights.sun->radiance);
+            lights.sunShare = shareOf(ofSun, ofMap);
+            ofMap += ofSun;
+        }
+        mean *= ofMap;
     }
     const double power = environmentPower(glm::vec3(mean), scene.bounds);
     requireFinite(power, "the environment");
     if (mean == glm::dvec3(0.0)) {
         lights.environmentMap.reset();
+        lights.sun.reset();
         return;
     }
     lights.environmentRadiance = radiance;

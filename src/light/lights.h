@@ -31,9 +31,11 @@ struct Lights {
     std::optional<uint32_t> environment; // number of the environment light
     glm::vec3 environmentRadiance{0.0f}; // constant, or what the map's texels are multiplied by
     std::optional<EnvironmentDistribution> environmentMap; // distribution of the scene's map
-    std::vector<double> powers;                            // W, per light
-    LightTree tree;           // tree over the lights before firstColumn; empty but for LightSelection::tree
-    uint32_t firstColumn = 0; // the first light of `table`
+    std::optional<SunDisc> sun;                            // of the map
+    double sunShare = 0.0;      // probability that a sample of the environment is one of the sun
+    std::vector<double> powers; // W, per light
+    LightTree tree;             // tree over the lights before firstColumn; empty but for LightSelection::tree
+    uint32_t firstColumn = 0;   // the first light of `table`
     // An entry per light from firstColumn on, and then one more for the tree, if there is one; pmf serves
     // sampling and MIS alike.
     std::vector<AliasEntry> table;

@@ -36,9 +36,10 @@ std::string shadersOf(const Renderer& renderer) {
 Fingerprints fingerprintsOf(const Renderer& renderer) {
     const FrameParameters& f = renderer.frame();
     Fingerprints parts = renderer.scene().fingerprints();
-    parts.emplace_back("environment", hashOf(f.environment, f.environmentLight, f.environmentRotation,
-                                             f.environmentWidth, f.environmentHeight, f.firstLightColumn,
-                                             f.lightColumns, f.hasBackground, f.background));
+    parts.emplace_back("environment",
+                       hashOf(f.environment, f.environmentLight, f.environmentRotation, f.environmentWidth,
+                              f.environmentHeight, f.firstLightColumn, f.lightColumns, f.hasBackground,
+                              f.background, f.sunDirection, f.sunRadiance, f.sunSize, f.sunShare));
     // cameraRight follows from the others and the image's size.
     parts.emplace_back("view",
                        hashOf(f.cameraPosition, f.projection, f.cameraUp, f.cameraForward, f.lensRadius,

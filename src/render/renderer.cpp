@@ -1,7 +1,6 @@
 #include "render/renderer.h"
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cmath>
 #include <future>
@@ -14,18 +13,9 @@
 #include "hosted/host_rays.h"
 #include "render/schedule_choice.h"
 #include "render/wave_budget.h"
-#include "scene/clipping.h"
-#include "scene/starting_solids.h"
-#include "scene/view_extent.h"
-#include "shared/interior_list.h"
-#include "shared/scene.h"
 
 namespace lavalight {
 namespace {
-
-static_assert(static_cast<uint32_t>(Projection::perspective) == kProjectionPerspective &&
-              static_cast<uint32_t>(Projection::orthographic) == kProjectionOrthographic &&
-              static_cast<uint32_t>(Projection::panorama) == kProjectionPanorama);
 
 // Constant radiance, or what the map's texels are multiplied by.
 glm::vec3 environmentFactor(const Scene& scene, const RenderSettings& settings) {
@@ -66,20 +56,6 @@ RenderSettings resolveSize(RenderSettings settings, const Camera& camera) {
 
 namespace {
 
-// In the layout of shaders/shared/interior_list.h. Of more solids than fit, the last have no room.
-void setStart(const StartingSolids& starting, FrameParameters& frame) {
-    std::array<uint32_t, kInteriorEntries> entries{};
-    const size_t fitting = std::min(starting.around.size(), entries.size());
-    for (size_t i = 0; i < fitting; ++i)
-        entries[i] = std::min(starting.around[i], kLastSolid);
-    const size_t without = std::min<size_t>(starting.around.size() - fitting, kInteriorOverflowMask);
-    frame.startReference = starting.reference;
-    frame.startOuter = entries[0] | entries[1] << 16u;
-    frame.startInner = entries[2] | entries[3] << 16u;
-    frame.startNotes = static_cast<uint32_t>(without) | (without > 0 ? kInteriorWasCrowded : 0u);
-    frame.startsVary = starting.vary ? 1u : 0u;
-}
-
 // What camera and background add to the features of the scene.
 SceneFeatures viewFeatures(const Camera& camera, const FrameParameters& frame) {
     return cameraFeatures(camera) | (frame.startsVary != 0 ? kFeatureStartsVary : 0u) |
@@ -89,68 +65,12 @@ SceneFeatures viewFeatures(const Camera& camera, const FrameParameters& frame) {
 
 } // namespace
 
-FrameParameters makeFrame(const Scene& scene, const Camera& camera, const RenderSettings& settings) {
-    const ViewExtent view = viewExtent(camera, static_cast<float>(settings.image.width),
-                                       static_cast<float>(settings.image.height));
-    const ClipRange clip = neededClipping(scene, camera, view);
-    FrameParameters frame{};
-    frame.cameraPosition = camera.position;
-    frame.projection = static_cast<uint32_t>(camera.projection);
-    frame.cameraRight = camera.right * view.halfWidth;
-    frame.cameraUp = camera.up * view.halfHeight;
-    frame.cameraForward = camera.forward;
-    frame.clipNear = clip.nearest;
-    frame.clipDepth = clip.depth;
-    frame.lensRadius = camera.lensRadius;
-    frame.focusDistance = camera.focusDistance;
-    frame.imageWidth = settings.image.width;
-    frame.imageHeight = settings.image.height;
-    frame.seed = settings.estimator.seed;
-    frame.environmentLight = kNoLight;
-    frame.environmentRotation = settings.lighting.rotation / 360.0f;
-    frame.sceneCenter = scene.bounds.center();
-    frame.sceneRadius = scene.bounds.radius();
-    frame.maxBounces = settings.estimator.maxBounces;
-    frame.rouletteStart = settings.estimator.rouletteStart;
-    frame.rouletteProbability = settings.estimator.rouletteProbability;
-    frame.clampIndirect = settings.estimator.clampIndirect;
-    frame.waveSize = settings.work.waveSize;
-    frame.hasBackground = settings.background.kind != Background::environment ? 1u : 0u;
-    frame.hasLayers = settings.layers != 0 ? 1u : 0u;
-    if (settings.background.kind == Background::constant)
-        frame.background = settings.background.radiance;
-    setStart(startingSolids(scene, camera, view, clip.nearest), frame);
-    return frame;
-}
-
-void setLights(FrameParameters& frame, const Lights& lights) {
-    frame.environment = lights.environmentRadiance;
-    frame.environmentLight = lights.environment.value_or(kNoLight);
-    frame.environmentWidth = lights.environmentMap ? lights.environmentMap->width : 0;
-    frame.environmentHeight = lights.environmentMap ? lights.environmentMap->height : 0;
-    frame.firstLightColumn = lights.firstColumn;
-    frame.lightColumns = static_cast<uint32_t>(lights.table.size());
-}
-
-namespace {
-
-// The parameters that setLights() sets.
-void copyLights(const FrameParameters& from, FrameParameters& to) {
-    to.environment = from.environment;
-    to.environmentLight = from.environmentLight;
-    to.environmentWidth = from.environmentWidth;
-    to.environmentHeight = from.environmentHeight;
-    to.firstLightColumn = from.firstLightColumn;
-    to.lightColumns = from.lightColumns;
-}
-
-} // namespace
-
 bool keepsLights(const RenderSettings& a, const RenderSettings& b) {
     return a.estimator.lightSelection == b.estimator.lightSelection &&
            (a.estimator.mis == Mis::off) == (b.estimator.mis == Mis::off) &&
            a.lighting.constant == b.lighting.constant && a.lighting.mapFile == b.lighting.mapFile &&
-           a.lighting.procedural == b.lighting.procedural && a.lighting.intensity == b.lighting.intensity;
+           a.lighting.procedural == b.lighting.procedural && a.lighting.sky == b.lighting.sky &&
+           a.lighting.intensity == b.lighting.intensity;
 }
 
 // The slow work before a render can start: the BVH is built on the host while the driver compiles the

@@ -15,6 +15,7 @@
 #include "image/rendering.h"
 #include "render/estimator_kernels.h"
 #include "render/film.h"
+#include "render/frame.h"
 #include "render/settings.h"
 #include "render/wave_renderer.h"
 #include "render/wave_walk.h"
@@ -135,10 +136,5 @@ class Renderer {
 
 // Whether a renderer of settings `a` may restart() with `b`, as far as the lights are concerned.
 [[nodiscard]] bool keepsLights(const RenderSettings& a, const RenderSettings& b);
-
-// Parameters for the kernels, but for lights.
-[[nodiscard]] FrameParameters makeFrame(const Scene& scene, const Camera& camera,
-                                        const RenderSettings& settings);
-void setLights(FrameParameters& frame, const Lights& lights);
 
 } // namespace lavalight

@@ -13,8 +13,10 @@ constexpr std::array<SettingName<ToneCurve>, 4> kToneCurves{{{"neutral", ToneCur
                                                              {"linear", ToneCurve::linear},
                                                              {"agx", ToneCurve::agx},
                                                              {"aces", ToneCurve::aces}}};
-constexpr std::array<SettingName<ProceduralEnvironment>, 2> kEnvironments{
-    {{"none", ProceduralEnvironment::none}, {"studio", ProceduralEnvironment::studio}}};
+constexpr std::array<SettingName<ProceduralEnvironment>, 3> kEnvironments{
+    {{"none", ProceduralEnvironment::none},
+     {"studio", ProceduralEnvironment::studio},
+     {"sky", ProceduralEnvironment::sky}}};
 constexpr std::array<SettingName<NamedView>, 8> kViews{{{"none", NamedView::none},
                                                         {"front", NamedView::front},
                                                         {"back", NamedView::back},

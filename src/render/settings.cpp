@@ -83,6 +83,11 @@ OptionPairs describe(const RenderSettings& settings) {
         add("env", settings.lighting.mapFile);
     if (settings.lighting.procedural != ProceduralEnvironment::none)
         add("env", nameOf(settings.lighting.procedural));
+    if (settings.lighting.procedural == ProceduralEnvironment::sky) {
+        add("sun-elevation", settings.lighting.sky.sunElevation);
+        add("sun-azimuth", settings.lighting.sky.sunAzimuth);
+        add("turbidity", settings.lighting.sky.turbidity);
+    }
     if (settings.lighting.rotation != 0.0f || !settings.lighting.mapFile.empty())
         add("env-rotation", settings.lighting.rotation);
     add("env-intensity", settings.lighting.intensity);

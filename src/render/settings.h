@@ -10,6 +10,7 @@
 #include <glm/glm.hpp>
 
 #include "render/estimator_settings.h"
+#include "scene/procedural/sky_environment.h"
 
 namespace lavalight {
 
@@ -52,7 +53,8 @@ struct WorkSettings {
 // Environments that are computed.
 enum class ProceduralEnvironment {
     none,
-    studio // makeStudio()
+    studio, // makeStudio()
+    sky     // makeSky()
 };
 
 // What shines where nothing is hit. At most one of the first three says something.
@@ -60,6 +62,7 @@ struct LightingSettings {
     std::optional<glm::vec3> constant; // radiance that replaces the scene's environment
     std::string mapFile;               // where Scene::environmentMap came from; empty: nowhere
     ProceduralEnvironment procedural = ProceduralEnvironment::none;
+    SkySettings sky;
     float rotation = 0.0f;  // turn of the map about +Y, degrees, counter-clockwise seen from above
     float intensity = 1.0f; // multiplies the environment, whatever it is
     bool operator==(const LightingSettings&) const = default;

@@ -144,12 +144,20 @@ struct Camera {
     bool operator==(const Camera&) const = default;
 };
 
+// A disc in the environment, far away.
+struct SunDisc {
+    glm::vec3 direction{0.0f, 1.0f, 0.0f}; // towards its middle, unit length
+    glm::vec3 radiance{0.0f};              // added to the environment's
+    float size = 0.0f;                     // 1 - the cosine of its angular radius
+};
+
 // Radiance from all directions, as an equirectangular picture: the middle of its top row is +Y, the middle of
 // the picture is +X, and +Z lies a quarter of its width to the right of that.
 struct EnvironmentMap {
     std::string source;     // file, or the name of a procedural one
     Image image;            // finite, not negative
     uint64_t badTexels = 0; // texels that were infinite, NaN or negative, and had to be changed
+    std::optional<SunDisc> sun{};
 };
 
 // Light that reaches everything.

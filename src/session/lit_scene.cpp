@@ -10,6 +10,7 @@
 #include "gltf/import.h"
 #include "image/environment_file.h"
 #include "render/setting_names.h"
+#include "scene/procedural/sky_environment.h"
 #include "scene/procedural/studio_environment.h"
 #include "session/builtin.h"
 
@@ -35,6 +36,8 @@ void bringLight(const LightingSettings& lighting, Scene& scene) {
         readEnvironmentMap(lighting.mapFile, scene);
     else if (lighting.procedural == ProceduralEnvironment::studio)
         bringStudio(scene);
+    else if (lighting.procedural == ProceduralEnvironment::sky)
+        scene.environmentMap = makeSky(lighting.sky);
 }
 
 } // namespace

@@ -132,6 +132,7 @@ void Viewer::keepLightOf(const LightingSettings& before) {
     view_.settings.lighting.constant = before.constant;
     view_.settings.lighting.mapFile = before.mapFile;
     view_.settings.lighting.procedural = before.procedural;
+    view_.settings.lighting.sky = before.sky;
 }
 
 void Viewer::receiveScene() {

@@ -123,9 +123,10 @@ GltfBuilder changingTriangle() {
 
 TEST_F(Options, OfRenderAreOnRecordUnlessTheyAreListedHereWithTheReason) {
     // Options that are on record in another way: under names of their own (scene, camera, device, png), as
-    // first-sample and spp, as the settings that a preset stands for, and as --at of each frame.
-    const std::set<std::string> elsewhere{"camera",  "device", "tonemap", "exposure",
-                                          "samples", "preset", "frames",  "fps"};
+    // first-sample and spp, in the ledger (denoise), as the settings that a preset stands for, and as --at of
+    // each frame.
+    const std::set<std::string> elsewhere{"camera",  "device", "tonemap", "exposure", "samples",
+                                          "denoise", "preset", "frames",  "fps"};
     // Options that need no record: what to write and where; how the work is cut up, which no bit depends on;
     // whether to render or refuse; whether to go on or begin again.
     const std::set<std::string> noMatterOfTheImage{"help",
@@ -149,6 +150,7 @@ TEST_F(Options, OfRenderAreOnRecordUnlessTheyAreListedHereWithTheReason) {
                       "40", "--aperture", "0.1", "--focus", "1"});
     recorded.merge(
         recordedWith({"--spp", "1", "--view", "top", "--background", "transparent", "--aov", "depth"}));
+    recorded.merge(recordedWith({"--spp", "1", "--env", "sky"}));
     std::filesystem::copy_file(folder_ / "image.exr", folder_ / "sky.exr");
     recorded.merge(
         recordedWith({"--spp", "1", "--panorama", "--no-clip", "--env", "sky.exr", "--env-rotation", "20"}));

@@ -32,6 +32,49 @@ TEST_F(EnvironmentImage, WhiteBallUnderAWhiteMapIsInvisible) {
     expectMean(renderScene(device(), scene, settings), glm::dvec3(1.0), 0.002);
 }
 
+// A large sun, which BSDF rays find too. The floor has E = pi L + (2 pi (1 - c)) (1 + c) / 2 S cos, for a
+// disc that is above the horizon as a whole.
+TEST_F(EnvironmentImage, FloorUnderASunDiscReflectsMapAndDiscWithEveryEstimator) {
+    constexpr double kPi = 3.14159265358979;
+    Scene scene = withMap(SceneBuilder()
+                              .add(rectangle({0, 0, 0}, {0, 0, 1}, {1, 0, 0}), lambert(glm::vec3(0.5f)))
+                              .camera(lookAtOrthographic({0.1f, 3, 0.1f}, {0, 0, 0}, 0.3f))
+                              .build(),
+                          constantMap(64, 32, glm::vec3(0.2f)));
+    const double cosine = std::cos(0.2);
+    const glm::vec3 direction = glm::normalize(glm::vec3(0.5f, 0.8f, -0.3f));
+    const glm::vec3 radiance(9.0f, 6.0f, 3.0f);
+    scene.environmentMap->sun = {direction, radiance, static_cast<float>(1.0 - cosine)};
+    const double discFactor = kPi * (1.0 - cosine * cosine) * direction.y;
+    const glm::dvec3 expected = 0.5 / kPi * (glm::dvec3(0.2 * kPi) + discFactor * glm::dvec3(radiance));
+    for (const Schedule schedule : schedulesOf(device()))
+        for (const bool nee : {true, false})
+            for (const Mis mis : {Mis::power, Mis::balance, Mis::off}) {
+                if (!nee && mis != Mis::power)
+                    continue;
+                SCOPED_TRACE(static_cast<int>(schedule) * 100 + static_cast<int>(mis) * 10 + (nee ? 1 : 0));
+                RenderSettings settings = imageSettings(16, 16, nee ? 256 : 4096);
+                settings.work.schedule = schedule;
+                settings.estimator.nextEventEstimation = nee;
+                settings.estimator.mis = mis;
+                expectMean(renderScene(device(), scene, settings), expected, 0.01);
+            }
+}
+
+// Where the map turns, so does its sun.
+TEST_F(EnvironmentImage, CameraSeesTheSunDiscTurnedWithItsMap) {
+    Scene scene = withMap(SceneBuilder()
+                              .add(rectangle({-1, 0, 0}, {0, 0, 1}, {0, 1, 0}), lambert(glm::vec3(0.0f)))
+                              .camera(lookAt({0, 0, 0}, {1, 0, 0}, 0.1f))
+                              .build(),
+                          constantMap(16, 8, glm::vec3(0.25f)));
+    scene.environmentMap->sun = {{0.0f, 0.0f, 1.0f}, glm::vec3(100.0f), 0.01f};
+    RenderSettings settings = imageSettings(4, 4, 2);
+    expectEveryPixel(renderScene(device(), scene, settings), glm::dvec3(0.25));
+    settings.lighting.rotation = 90.0f; // counter-clockwise from above: +Z comes to +X
+    expectEveryPixel(renderScene(device(), scene, settings), glm::dvec3(100.25));
+}
+
 // Each quarter of the map has a colour of its own.
 TEST_F(EnvironmentImage, CameraSeesTheMapTurnedAndScaled) {
     Image map(4, 1);

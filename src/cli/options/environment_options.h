@@ -23,6 +23,7 @@ class EnvironmentOptions {
   private:
     CLI::App* parser_; // asked which options were given
     std::string environment_;
+    SkySettings sky_;
     float rotation_ = 0.0f;
     float intensity_ = 1.0f;
 };

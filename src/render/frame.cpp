@@ -1,0 +1,108 @@
+#include "render/frame.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "scene/clipping.h"
+#include "scene/starting_solids.h"
+#include "scene/view_extent.h"
+#include "shared/interior_list.h"
+#include "shared/scene.h"
+
+namespace lavalight {
+namespace {
+
+static_assert(static_cast<uint32_t>(Projection::perspective) == kProjectionPerspective &&
+              static_cast<uint32_t>(Projection::orthographic) == kProjectionOrthographic &&
+              static_cast<uint32_t>(Projection::panorama) == kProjectionPanorama);
+
+// In the layout of shaders/shared/interior_list.h. Of more solids than fit, the last have no room.
+void setStart(const StartingSolids& starting, FrameParameters& frame) {
+    std::array<uint32_t, kInteriorEntries> entries{};
+    const size_t fitting = std::min(starting.around.size(), entries.size());
+    for (size_t i = 0; i < fitting; ++i)
+        entries[i] = std::min(starting.around[i], kLastSolid);
+    const size_t without = std::min<size_t>(starting.around.size() - fitting, kInteriorOverflowMask);
+    frame.startReference = starting.reference;
+    frame.startOuter = entries[0] | entries[1] << 16u;
+    frame.startInner = entries[2] | entries[3] << 16u;
+    frame.startNotes = static_cast<uint32_t>(without) | (without > 0 ? kInteriorWasCrowded : 0u);
+    frame.startsVary = starting.vary ? 1u : 0u;
+}
+
+// A direction of the environment map after the map has made so many turns.
+glm::vec3 turned(const glm::vec3& direction, float turns) {
+    const double angle = 2.0 * std::numbers::pi * turns;
+    const glm::dvec3 d(direction);
+    return {d.x * std::cos(angle) + d.z * std::sin(angle), d.y,
+            d.z * std::cos(angle) - d.x * std::sin(angle)};
+}
+
+} // namespace
+
+FrameParameters makeFrame(const Scene& scene, const Camera& camera, const RenderSettings& settings) {
+    const ViewExtent view = viewExtent(camera, static_cast<float>(settings.image.width),
+                                       static_cast<float>(settings.image.height));
+    const ClipRange clip = neededClipping(scene, camera, view);
+    FrameParameters frame{};
+    frame.cameraPosition = camera.position;
+    frame.projection = static_cast<uint32_t>(camera.projection);
+    frame.cameraRight = camera.right * view.halfWidth;
+    frame.cameraUp = camera.up * view.halfHeight;
+    frame.cameraForward = camera.forward;
+    frame.clipNear = clip.nearest;
+    frame.clipDepth = clip.depth;
+    frame.lensRadius = camera.lensRadius;
+    frame.focusDistance = camera.focusDistance;
+    frame.imageWidth = settings.image.width;
+    frame.imageHeight = settings.image.height;
+    frame.seed = settings.estimator.seed;
+    frame.environmentLight = kNoLight;
+    frame.environmentRotation = settings.lighting.rotation / 360.0f;
+    frame.sceneCenter = scene.bounds.center();
+    frame.sceneRadius = scene.bounds.radius();
+    frame.maxBounces = settings.estimator.maxBounces;
+    frame.rouletteStart = settings.estimator.rouletteStart;
+    frame.rouletteProbability = settings.estimator.rouletteProbability;
+    frame.clampIndirect = settings.estimator.clampIndirect;
+    frame.waveSize = settings.work.waveSize;
+    frame.hasBackground = settings.background.kind != Background::environment ? 1u : 0u;
+    frame.hasLayers = settings.layers != 0 ? 1u : 0u;
+    if (settings.background.kind == Background::constant)
+        frame.background = settings.background.radiance;
+    setStart(startingSolids(scene, camera, view, clip.nearest), frame);
+    return frame;
+}
+
+void setLights(FrameParameters& frame, const Lights& lights) {
+    frame.environment = lights.environmentRadiance;
+    frame.environmentLight = lights.environment.value_or(kNoLight);
+    frame.environmentWidth = lights.environmentMap ? lights.environmentMap->width : 0;
+    frame.environmentHeight = lights.environmentMap ? lights.environmentMap->height : 0;
+    if (lights.sun) {
+        frame.sunDirection = turned(lights.sun->direction, frame.environmentRotation);
+        frame.sunRadiance = lights.sun->radiance;
+        frame.sunSize = lights.sun->size;
+        frame.sunShare = static_cast<float>(lights.sunShare);
+    }
+    frame.firstLightColumn = lights.firstColumn;
+    frame.lightColumns = static_cast<uint32_t>(lights.table.size());
+}
+
+// The parameters that setLights() sets.
+void copyLights(const FrameParameters& from, FrameParameters& to) {
+    to.environment = from.environment;
+    to.environmentLight = from.environmentLight;
+    to.environmentWidth = from.environmentWidth;
+    to.environmentHeight = from.environmentHeight;
+    to.sunDirection = turned(from.sunDirection, to.environmentRotation - from.environmentRotation);
+    to.sunRadiance = from.sunRadiance;
+    to.sunSize = from.sunSize;
+    to.sunShare = from.sunShare;
+    to.firstLightColumn = from.firstLightColumn;
+    to.lightColumns = from.lightColumns;
+}
+
+} // namespace lavalight
