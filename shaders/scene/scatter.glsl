@@ -68,7 +68,8 @@ NextRays scatterAt(Hit hit, Ray ray, uint slot, uint bounce, inout Path path) {
         }
     }
     next.isCut = bounce >= frame.maxBounces;
-    if (next.isCut)
+    const bool showsAlbedo = sceneHas(kFeatureLayers) && bounce == 0u;
+    if (next.isCut && !showsAlbedo)
         return next;
     MediaSides media;
     if (sceneHas(kFeatureSolids))
@@ -79,6 +80,8 @@ NextRays scatterAt(Hit hit, Ray ray, uint slot, uint bounce, inout Path path) {
     if (sceneHas(kFeatureSolids))
         vertex.media = media;
     recordAlbedo(slot, bounce, vertex);
+    if (next.isCut)
+        return next;
 
     // ---- Next-event estimation ----
     if (kNee != 0u && sceneHas(kFeatureLights) && hasNonDelta(vertex.bsdf))

@@ -15,8 +15,9 @@ bool isInSun(FrameParameters parameters, vec3 wi) {
     return dot(chord, chord) <= 2.0 * parameters.sunSize;
 }
 
+// The ground hides what is below the horizon.
 vec3 sunRadiance(FrameParameters parameters, vec3 wi) {
-    return sceneHas(kFeatureSun) && isInSun(parameters, wi) ? parameters.sunRadiance : vec3(0.0);
+    return sceneHas(kFeatureSun) && wi.y >= 0.0 && isInSun(parameters, wi) ? parameters.sunRadiance : vec3(0.0);
 }
 
 // Uniform over the disc.

@@ -77,7 +77,13 @@ std::vector<fs::path> candidates() {
 SharedLibrary load() {
     if (const auto named = folderOf(kVariable)) {
         std::error_code code;
-        return SharedLibrary(fs::is_directory(*named, code) ? *named / kFileName : *named);
+        fs::path file = fs::is_directory(*named, code) ? *named / kFileName : *named;
+        if (fs::is_directory(*named / "lib", code))
+            file = *named / "lib" / kFileName;
+        if (!fs::exists(file, code))
+            throw Error(
+                fmt::format("cannot denoise: there is no {}, which {} names", file.string(), kVariable));
+        return SharedLibrary(file);
     }
     for (const fs::path& file : candidates()) {
         std::error_code code;
@@ -118,6 +124,14 @@ struct Denoiser::Library {
     void (*execute)(Filter*) = file.function<void(Filter*)>("oidnExecuteFilter");
     void (*releaseFilter)(Filter*) = file.function<void(Filter*)>("oidnReleaseFilter");
     Device* device = nullptr;
+
+    Library() = default;
+    Library(const Library&) = delete;
+    Library& operator=(const Library&) = delete;
+    ~Library() {
+        if (device != nullptr)
+            releaseDevice(device);
+    }
 
     void requireNoError() const {
         const char* message = nullptr;
@@ -161,9 +175,7 @@ Denoiser::Denoiser() : library_(std::make_unique<Library>()) {
     library_->requireNoError();
 }
 
-Denoiser::~Denoiser() {
-    library_->releaseDevice(library_->device);
-}
+Denoiser::~Denoiser() = default;
 
 std::string Denoiser::version() const {
     const auto part = [&](const char* name) { return library_->deviceInt(library_->device, name); };

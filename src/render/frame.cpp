@@ -92,12 +92,13 @@ void setLights(FrameParameters& frame, const Lights& lights) {
 }
 
 // The parameters that setLights() sets.
-void copyLights(const FrameParameters& from, FrameParameters& to) {
+void copyLights(const FrameParameters& from, const Scene& scene, FrameParameters& to) {
     to.environment = from.environment;
     to.environmentLight = from.environmentLight;
     to.environmentWidth = from.environmentWidth;
     to.environmentHeight = from.environmentHeight;
-    to.sunDirection = turned(from.sunDirection, to.environmentRotation - from.environmentRotation);
+    if (scene.environmentMap && scene.environmentMap->sun && from.sunSize > 0.0f)
+        to.sunDirection = turned(scene.environmentMap->sun->direction, to.environmentRotation);
     to.sunRadiance = from.sunRadiance;
     to.sunSize = from.sunSize;
     to.sunShare = from.sunShare;

@@ -12,7 +12,7 @@ namespace lavalight {
 [[nodiscard]] FrameParameters makeFrame(const Scene& scene, const Camera& camera,
                                         const RenderSettings& settings);
 void setLights(FrameParameters& frame, const Lights& lights);
-// Takes what setLights() set. The map may be turned otherwise.
-void copyLights(const FrameParameters& from, FrameParameters& to);
+// Takes what setLights() set of that scene. The map may be turned otherwise.
+void copyLights(const FrameParameters& from, const Scene& scene, FrameParameters& to);
 
 } // namespace lavalight

@@ -191,7 +191,7 @@ void Renderer::restart(const Scene& scene, const Camera& camera, const RenderSet
     Fresh fresh{resolveSchedule(wanted, device_->description(), source), {}, 0};
     fresh.settings.estimator.lightSelection = settings_.estimator.lightSelection;
     fresh.frame = makeFrame(scene, camera, fresh.settings);
-    copyLights(frame_, fresh.frame);
+    copyLights(frame_, scene, fresh.frame);
     fresh.features = sceneFeatures_ | viewFeatures(camera, fresh.frame);
     const EstimatorSettings& estimator = fresh.settings.estimator;
     std::vector<KernelVariant> variants = variantsFor(fresh.settings, classes_);

@@ -45,6 +45,10 @@ void checkSettings(const RenderSettings& settings) {
 
 namespace {
 
+bool isForDenoising(uint32_t layers) {
+    return (layers & kDenoisingLayers) == kDenoisingLayers;
+}
+
 std::string namesOfLayers(uint32_t layers) {
     std::vector<std::string> names;
     for (const LayerPlane& plane : layoutOf(layers | 1u << kColorPlane).planes().subspan(1))
@@ -95,8 +99,13 @@ OptionPairs describe(const RenderSettings& settings) {
         add("background", "transparent");
     if (settings.background.kind == Background::constant)
         add("background", vectorText(settings.background.radiance));
-    if (settings.layers != 0)
-        add("aov", namesOfLayers(settings.layers));
+    // What is denoised may be asked for as a layer too, which changes no plane.
+    const uint32_t asked =
+        isForDenoising(settings.layers) ? settings.layers & ~kDenoisingLayers : settings.layers;
+    if (asked != 0)
+        add("aov", namesOfLayers(asked));
+    if (isForDenoising(settings.layers))
+        add("denoise", "on");
     if (!settings.provenance.changedShaders.empty())
         add("shaders", fmt::format("{}", fmt::join(settings.provenance.changedShaders, ",")));
     pairs.insert(pairs.end(), settings.provenance.cameraOptions.begin(),

@@ -11,6 +11,7 @@
 
 #include "render/estimator_settings.h"
 #include "scene/procedural/sky_environment.h"
+#include "shared/film.h"
 
 namespace lavalight {
 
@@ -106,6 +107,10 @@ struct RenderSettings {
     Provenance provenance;
     bool operator==(const RenderSettings&) const = default;
 };
+
+// Further planes that denoising reads: light that is seen directly, and the guides.
+inline constexpr uint32_t kDenoisingLayers =
+    1u << kEmissionPlane | 1u << kGuideAlbedoPlane | 1u << kGuideNormalPlane;
 
 // The planes of the render's film: bit i for row i of FILM_PLANES (shaders/shared/film.h).
 [[nodiscard]] uint32_t filmPlanes(const RenderSettings& settings);

@@ -50,10 +50,9 @@ void aim(Camera& camera, const Scene& scene, const CameraChoice& choice) {
 }
 
 Camera frameView(const Scene& scene, const CameraChoice& choice, float aspect) {
-    if (!choice.name.empty() || choice.lookFrom || choice.panorama)
-        throw UsageError(
-            "--view frames the scene with a camera of its own; give it without --camera, --look-from and "
-            "--panorama");
+    if (!choice.name.empty() || choice.lookFrom || choice.lookAt || choice.up || choice.panorama)
+        throw UsageError("--view and --turntable frame the scene with a camera of their own; give them "
+                         "without --camera, --look-from, --look-at, --up and --panorama");
     const bool isVertical = choice.view == NamedView::top || choice.view == NamedView::bottom;
     if (choice.turns && isVertical)
         throw UsageError(

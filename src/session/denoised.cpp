@@ -30,19 +30,30 @@ Image withoutEmission(const Image& radiance, const Image& emission) {
     return image;
 }
 
-} // namespace
-
-uint32_t layersForDenoising() {
-    return 1u << kEmissionPlane | 1u << kGuideAlbedoPlane | 1u << kGuideNormalPlane;
+// The image of what is covered alone: values are divided by coverage, and 0 where there is none.
+Image ofCovered(Image image, const Layer* coverage) {
+    for (size_t i = 0; coverage != nullptr && i < image.pixels.size(); ++i) {
+        const float share = coverage->mean.pixels[i].x;
+        image.pixels[i] = share > 0.0f ? image.pixels[i] / share : glm::vec3(0.0f);
+    }
+    return image;
 }
 
-void denoise(Rendering& rendering, const Denoiser& denoiser, DenoiseQuality quality, uint32_t asked) {
-    const Image& emission = layerOf(rendering, kEmissionPlane);
-    Image image = denoiser.denoise(
-        withoutEmission(rendering.radiance(), emission),
-        {layerOf(rendering, kGuideAlbedoPlane), layerOf(rendering, kGuideNormalPlane)}, quality);
-    for (size_t i = 0; i < image.pixels.size(); ++i)
-        image.pixels[i] += emission.pixels[i];
+} // namespace
+
+void denoise(Rendering& rendering, const Denoiser& denoiser, DenoiseQuality quality, uint32_t asked,
+             bool isSharp) {
+    const Layer* coverage = rendering.find(nameOfRow(kCoveragePlane));
+    const Image none(rendering.radiance().width, rendering.radiance().height);
+    const Image& keptLight = isSharp ? layerOf(rendering, kEmissionPlane) : none;
+    Image image = denoiser.denoise(ofCovered(withoutEmission(rendering.radiance(), keptLight), coverage),
+                                   {ofCovered(layerOf(rendering, kGuideAlbedoPlane), coverage),
+                                    ofCovered(layerOf(rendering, kGuideNormalPlane), coverage)},
+                                   quality);
+    for (size_t i = 0; i < image.pixels.size(); ++i) {
+        const float share = coverage != nullptr ? coverage->mean.pixels[i].x : 1.0f;
+        image.pixels[i] = share * image.pixels[i] + keptLight.pixels[i];
+    }
     for (const uint32_t row : {kEmissionPlane, kGuideAlbedoPlane, kGuideNormalPlane})
         if ((asked >> row & 1u) == 0)
             std::erase_if(rendering.layers, [&](const Layer& layer) { return layer.name == nameOfRow(row); });

@@ -1,5 +1,6 @@
 #include "session/exposure.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
@@ -39,27 +40,26 @@ float autoExposure(const Rendering& rendering) {
     return weights > 0.0 ? static_cast<float>(std::log2(kMiddleGrey) - sum / weights) : 0.0f;
 }
 
-std::string extremesText(std::span<const uint32_t> pixels) {
+std::string extremesText(std::span<const uint32_t> pixels, const Image* coverage, const std::string& advice) {
     size_t seen = 0;
     size_t white = 0;
     size_t black = 0;
-    for (const uint32_t pixel : pixels) {
-        const uint32_t red = pixel & 0xffu;
-        const uint32_t green = pixel >> 8 & 0xffu;
-        const uint32_t blue = pixel >> 16 & 0xffu;
-        if (pixel >> 24 == 0)
+    for (size_t i = 0; i < pixels.size(); ++i) {
+        if (coverage != nullptr && coverage->pixels[i].x == 0.0f)
             continue;
+        const uint32_t red = pixels[i] & 0xffu;
+        const uint32_t green = pixels[i] >> 8 & 0xffu;
+        const uint32_t blue = pixels[i] >> 16 & 0xffu;
         ++seen;
         white += red >= kWhite && green >= kWhite && blue >= kWhite ? 1 : 0;
         black += red <= kBlack && green <= kBlack && blue <= kBlack ? 1 : 0;
     }
-    if (2 * white > seen)
-        return fmt::format("{:.0f} % of the picture is white; try --exposure auto, or --exposure -2",
-                           100.0 * static_cast<double>(white) / static_cast<double>(seen));
-    if (2 * black > seen)
-        return fmt::format("{:.0f} % of the picture is black; try --exposure auto, or --env studio",
-                           100.0 * static_cast<double>(black) / static_cast<double>(seen));
-    return {};
+    const size_t most = std::max(white, black);
+    if (2 * most <= seen)
+        return {};
+    return fmt::format("{:.0f} % of the picture is {}{}{}",
+                       100.0 * static_cast<double>(most) / static_cast<double>(seen),
+                       white > black ? "white" : "black", advice.empty() ? "" : "; try ", advice);
 }
 
 } // namespace lavalight

@@ -15,8 +15,10 @@ namespace lavalight {
 // Digital Images", 2002 (section 3.1).
 [[nodiscard]] float autoExposure(const Rendering& rendering);
 
-// A message where more than half of what a picture shows is white or black; else nothing. `pixels`: sRGB,
-// with alpha (ToneMapper::map()).
-[[nodiscard]] std::string extremesText(std::span<const uint32_t> pixels);
+// A message where more than half of what a picture shows of the scene is white or black; else nothing.
+// `pixels`: sRGB (ToneMapper::map()); `coverage`: the layer, of which 0 does not count, or null; `advice`:
+// what may help.
+[[nodiscard]] std::string extremesText(std::span<const uint32_t> pixels, const Image* coverage,
+                                       const std::string& advice);
 
 } // namespace lavalight

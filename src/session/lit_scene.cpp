@@ -29,6 +29,7 @@ void readEnvironmentMap(const std::string& path, Scene& scene) {
 
 void bringStudio(Scene& scene) {
     scene.environmentMap = {std::string(nameOf(ProceduralEnvironment::studio)), makeStudio(), 0};
+    scene.environment = glm::vec3(0.0f); // it is not the light any more
 }
 
 void bringLight(const LightingSettings& lighting, Scene& scene) {
@@ -54,7 +55,7 @@ Scene loadLitScene(const std::string& nameOrPath, const ImportOptions& options,
             "the scene has no light: a studio lights it; give another light with --env");
     }
     if (lighting.rotation != 0.0f && !scene.environmentMap)
-        throw UsageError("--env-rotation: there is no map to turn; give one with --env FILE");
+        throw UsageError("--env-rotation: there is no map to turn; give one with --env");
     return scene;
 }
 

@@ -104,7 +104,8 @@ void writeOutputs(RenderJob& job, const Outputs& outputs, OutputStyle& style, To
     Rendering rendering = job.renderer->rendering();
     fillResults(report, *job.renderer, *job.device, rendering, job.scene);
     if (style.denoiser) {
-        denoise(rendering, *style.denoiser, style.quality, style.layers);
+        const bool isSharp = job.renderer->frame().lensRadius == 0.0f;
+        denoise(rendering, *style.denoiser, style.quality, style.layers, isSharp);
         report.ledger.push_back(
             {"denoised", fmt::format("the PNG and the layer {}, by Open Image Denoise {}, {}", kDenoisedLayer,
                                      style.denoiser->version(), nameOf(style.quality))});
@@ -119,7 +120,8 @@ void writeOutputs(RenderJob& job, const Outputs& outputs, OutputStyle& style, To
         writeExr(outputs.exr, rendering, exrMetadata(report));
     if (!outputs.png.empty()) {
         assert(toneMapper != nullptr);
-        if (std::exchange(style.exposesByImage, false))
+        const bool exposesByImage = std::exchange(style.exposesByImage, false);
+        if (exposesByImage)
             style.tone.exposure = autoExposure(rendering);
         report.tone = style.tone;
         const Layer* denoised = rendering.find(kDenoisedLayer);
@@ -128,7 +130,11 @@ void writeOutputs(RenderJob& job, const Outputs& outputs, OutputStyle& style, To
             denoised != nullptr
                 ? toneMapper->map(denoised->mean, coverage != nullptr ? &coverage->mean : nullptr, style.tone)
                 : toneMapper->map(job.renderer->film(), style.tone);
-        warn(report, extremesText(pixels));
+        const bool isDark = !job.scene.environmentMap && !report.settings.lighting.constant;
+        warn(report, extremesText(pixels, coverage != nullptr ? &coverage->mean : nullptr,
+                                  fmt::format("{}{}{}", exposesByImage ? "" : "--exposure auto",
+                                              !exposesByImage && isDark ? ", or " : "",
+                                              isDark ? "--env studio" : "")));
         writePng(outputs.png, report.settings.image.width, report.settings.image.height, pixels,
                  textsOf(style.tone));
     }

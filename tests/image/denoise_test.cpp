@@ -15,6 +15,7 @@
 #include "session/denoised.h"
 #include "support/environment_variable.h"
 #include "support/render_scene.h"
+#include "support/scene_builder.h"
 #include "support/temporary_folder.h"
 #include "support/test_device.h"
 
@@ -34,9 +35,9 @@ class Denoise : public DeviceTest {
     // Of 16 samples, with the layer of light that is seen directly.
     [[nodiscard]] Rendering denoised(const Scene& scene, const Image& reference, DenoiseQuality quality) {
         RenderSettings settings = imageSettings(reference.width, reference.height, 16);
-        settings.layers = layersForDenoising();
+        settings.layers = kDenoisingLayers;
         Rendering rendering = renderScene(device(), scene, settings).rendering;
-        denoise(rendering, *denoiser_, quality, 1u << kEmissionPlane);
+        denoise(rendering, *denoiser_, quality, 1u << kEmissionPlane, true);
         return rendering;
     }
     std::unique_ptr<Denoiser> denoiser_;
@@ -91,6 +92,42 @@ TEST_F(Denoise, QuartersTheErrorOfSixteenSamplesAndKeepsTheMeanAndTheLamps) {
             EXPECT_LT(change, 0.01 * lamp);
         }
     }
+}
+
+// Colour is denoised for what is covered, and has no glow around it.
+TEST_F(Denoise, KeepsTheCoverageOfEdgesAndNothingWhereNothingIs) {
+    RenderSettings settings = imageSettings(96, 96, 16);
+    settings.layers = kDenoisingLayers;
+    settings.background.kind = Background::transparent;
+    const Scene scene = SceneBuilder()
+                            .add(ball({0, 0, 0}, 1.0f), lambert({0.8f, 0.4f, 0.3f}))
+                            .add(ball({0, 2.2f, 0.5f}, 1.0f), lambert(glm::vec3(0.1f)))
+                            .environment(glm::vec3(1.0f))
+                            .camera(lookAt({0.5f, 0.3f, 5}, {0, 0, 0}, 0.7f))
+                            .build();
+    const auto render = [&](uint32_t samples) {
+        settings.stop.samples = samples;
+        return renderScene(device(), scene, settings).rendering;
+    };
+    const Rendering reference = render(512);
+    Rendering rendering = render(16);
+    denoise(rendering, *denoiser_, DenoiseQuality::high, 0, true);
+    const Image& clean = rendering.find(kDenoisedLayer)->mean;
+    double edge = 0.0;
+    double expected = 0.0;
+    size_t open = 0;
+    for (size_t i = 0; i < clean.pixels.size(); ++i) {
+        const float alpha = rendering.find("coverage")->mean.pixels[i].x;
+        if (alpha == 0.0f) {
+            ASSERT_EQ(clean.pixels[i], glm::vec3(0.0f));
+            ++open;
+        } else if (alpha < 1.0f) {
+            edge += clean.pixels[i].y / alpha;
+            expected += reference.radiance().pixels[i].y / reference.find("coverage")->mean.pixels[i].x;
+        }
+    }
+    EXPECT_GT(open, 0u);
+    EXPECT_NEAR(edge / expected, 1.0, 0.05);
 }
 
 TEST_F(Denoise, GivesEqualBitsEachTime) {

@@ -65,10 +65,10 @@ TEST_F(EnvironmentImage, FloorUnderASunDiscReflectsMapAndDiscWithEveryEstimator)
 TEST_F(EnvironmentImage, CameraSeesTheSunDiscTurnedWithItsMap) {
     Scene scene = withMap(SceneBuilder()
                               .add(rectangle({-1, 0, 0}, {0, 0, 1}, {0, 1, 0}), lambert(glm::vec3(0.0f)))
-                              .camera(lookAt({0, 0, 0}, {1, 0, 0}, 0.1f))
+                              .camera(lookAt({0, 0, 0}, {0.8f, 0.6f, 0}, 0.1f))
                               .build(),
                           constantMap(16, 8, glm::vec3(0.25f)));
-    scene.environmentMap->sun = {{0.0f, 0.0f, 1.0f}, glm::vec3(100.0f), 0.01f};
+    scene.environmentMap->sun = {{0.0f, 0.6f, 0.8f}, glm::vec3(100.0f), 0.01f};
     RenderSettings settings = imageSettings(4, 4, 2);
     expectEveryPixel(renderScene(device(), scene, settings), glm::dvec3(0.25));
     settings.lighting.rotation = 90.0f; // counter-clockwise from above: +Z comes to +X

@@ -14,7 +14,6 @@
 #include "cli/interrupt.h"
 #include "cli/progress.h"
 #include "session/builtin.h"
-#include "session/denoised.h"
 #include "session/frame_sequence.h"
 #include "session/lit_scene.h"
 
@@ -72,12 +71,14 @@ RenderPlan RenderCommand::plan() const {
     plan.style.quality = denoise_.quality();
     if (plan.style.quality != DenoiseQuality::off) {
         plan.style.denoiser = std::make_shared<const Denoiser>();
-        plan.settings.layers |= layersForDenoising();
+        plan.settings.layers |= kDenoisingLayers;
     }
     return plan;
 }
 
 void RenderCommand::checkOptions() const {
+    if (background_.backdrop() && outputs_.png.empty())
+        throw UsageError("--background: a colour is for a PNG; give -o OUT.png, or --background transparent");
     if (tone_.isGiven() && outputs_.png.empty())
         throw UsageError("--tonemap and --exposure are for a PNG; give -o OUT.png, or leave them out");
     if (denoise_.quality() != DenoiseQuality::off && options_.keepsFilm())

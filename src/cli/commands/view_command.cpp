@@ -40,6 +40,8 @@ RenderPlan ViewCommand::plan() {
 }
 
 int ViewCommand::run() {
+    if (tone_.isAutomatic())
+        throw UsageError("--exposure: the window takes a number of stops; auto is for lavalight render");
     keepHeapSmall();
     const RenderPlan plan = this->plan();
     if (!isNotWatching_)

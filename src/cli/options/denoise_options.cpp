@@ -1,5 +1,7 @@
 #include "cli/options/denoise_options.h"
 
+#include <fmt/format.h>
+
 #include "session/denoise_names.h"
 
 namespace lavalight {
@@ -11,7 +13,16 @@ DenoiseOptions::DenoiseOptions(CLI::App& parser) : parser_(&parser) {
                     "denoised. Without a word: high")
         ->type_name("high|balanced|fast")
         ->expected(0, 1)
-        ->check(CLI::IsMember({"", "high", "balanced", "fast"}));
+        ->check(CLI::Validator(
+            [](std::string& word) {
+                return word.empty() || word == "high" || word == "balanced" || word == "fast"
+                           ? std::string()
+                           : fmt::format(
+                                 "{} is neither high, nor balanced, nor fast; put the scene first, or write "
+                                 "--denoise=high",
+                                 word);
+            },
+            ""));
 }
 
 DenoiseQuality DenoiseOptions::quality() const {

@@ -33,7 +33,8 @@ EnvironmentOptions::EnvironmentOptions(CLI::App& parser) : parser_(&parser) {
     parser
         .add_option("--sun-elevation", sky_.sunElevation, "Of --env sky: degrees above the horizon, 0 to 90")
         ->type_name("DEGREES");
-    parser.add_option("--sun-azimuth", sky_.sunAzimuth, "Of --env sky: degrees from +Z towards +X")
+    parser
+        .add_option("--sun-azimuth", sky_.sunAzimuth, "Of --env sky: degrees from +Z towards +X, -360 to 360")
         ->type_name("DEGREES");
     parser.add_option("--turbidity", sky_.turbidity, "Of --env sky: from 1, clear air, to 10, haze")
         ->type_name("T");
@@ -69,7 +70,7 @@ LightingSettings EnvironmentOptions::lighting() const {
             environment_));
     }
     if (parser_->count("--env-rotation") > 0 && lighting.constant)
-        throw UsageError("--env-rotation: there is no map to turn; give one with --env FILE");
+        throw UsageError("--env-rotation: there is no map to turn; give one with --env");
     for (const char* option : {"--sun-elevation", "--sun-azimuth", "--turbidity"})
         if (parser_->count(option) > 0 && lighting.procedural != ProceduralEnvironment::sky)
             throw UsageError(fmt::format("{}: there is no sky; give --env sky", option));

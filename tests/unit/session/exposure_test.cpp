@@ -35,14 +35,19 @@ TEST(Extremes, AreToldOfMoreThanHalfOfWhatIsShown) {
     constexpr uint32_t kWhite = 0xffffffff;
     constexpr uint32_t kBlack = 0xff000000;
     constexpr uint32_t kRed = 0xff0000ff;
-    constexpr uint32_t kNothing = 0;
-    const auto text = [](const std::vector<uint32_t>& pixels) { return extremesText(pixels); };
-    EXPECT_NE(text({kWhite, kWhite, kRed}).find("white"), std::string::npos);
-    EXPECT_NE(text({kBlack, kBlack, kRed}).find("black"), std::string::npos);
+    const auto text = [](const std::vector<uint32_t>& pixels) {
+        return extremesText(pixels, nullptr, "this");
+    };
+    EXPECT_EQ(text({kWhite, kWhite, kRed}), "67 % of the picture is white; try this");
+    EXPECT_EQ(text({kBlack, kBlack, kRed}), "67 % of the picture is black; try this");
     EXPECT_EQ(text({kWhite, kRed}), "");
     EXPECT_EQ(text({kWhite, kBlack, kRed}), "");
-    EXPECT_EQ(text({kNothing, kNothing, kNothing, kRed}), ""); // what is transparent is not black
     EXPECT_EQ(text({}), "");
+    Image coverage(4, 1); // the backdrop of three pixels is not the scene's
+    coverage.pixels[3].x = 0.5f;
+    EXPECT_EQ(extremesText(std::vector<uint32_t>{kWhite, kWhite, kWhite, kRed}, &coverage, ""), "");
+    EXPECT_EQ(extremesText(std::vector<uint32_t>{kRed, kRed, kRed, kWhite}, &coverage, ""),
+              "100 % of the picture is white");
 }
 
 } // namespace
