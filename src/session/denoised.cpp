@@ -1,8 +1,12 @@
 #include "session/denoised.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <cstdint>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "film/film_layout.h"
 
@@ -30,12 +34,47 @@ Image withoutEmission(const Image& radiance, const Image& emission) {
     return image;
 }
 
-// The image of what is covered alone: values are divided by coverage, and 0 where there is none.
+// Pixels around a covered one that get values, in rings.
+constexpr int kRings = 16;
+
+// Gives pixels without a value (`has` is 0) the mean of their neighbours that have one, ring by ring.
+void spread(Image& image, std::vector<uint8_t> has) {
+    const auto width = static_cast<int64_t>(image.width);
+    const auto height = static_cast<int64_t>(image.height);
+    for (int ring = 0; ring < kRings; ++ring) {
+        const std::vector<uint8_t> before = has;
+        for (int64_t y = 0; y < height; ++y)
+            for (int64_t x = 0; x < width; ++x) {
+                if (before[static_cast<size_t>(y * width + x)] != 0)
+                    continue;
+                glm::vec3 sum(0.0f);
+                float count = 0.0f;
+                for (int64_t v = std::max<int64_t>(y - 1, 0); v <= std::min(y + 1, height - 1); ++v)
+                    for (int64_t u = std::max<int64_t>(x - 1, 0); u <= std::min(x + 1, width - 1); ++u)
+                        if (before[static_cast<size_t>(v * width + u)] != 0) {
+                            sum += image.pixels[static_cast<size_t>(v * width + u)];
+                            count += 1.0f;
+                        }
+                if (count > 0.0f) {
+                    image.pixels[static_cast<size_t>(y * width + x)] = sum / count;
+                    has[static_cast<size_t>(y * width + x)] = 1;
+                }
+            }
+    }
+}
+
+// The image as if it were covered everywhere: values are divided by coverage and go on beyond edges, so that
+// these look like no edges of the scene.
 Image ofCovered(Image image, const Layer* coverage) {
-    for (size_t i = 0; coverage != nullptr && i < image.pixels.size(); ++i) {
+    if (coverage == nullptr)
+        return image;
+    std::vector<uint8_t> has(image.pixels.size());
+    for (size_t i = 0; i < image.pixels.size(); ++i) {
         const float share = coverage->mean.pixels[i].x;
+        has[i] = share > 0.0f ? 1 : 0;
         image.pixels[i] = share > 0.0f ? image.pixels[i] / share : glm::vec3(0.0f);
     }
+    spread(image, std::move(has));
     return image;
 }
 
