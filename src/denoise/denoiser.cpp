@@ -182,7 +182,8 @@ std::string Denoiser::version() const {
     return fmt::format("{}.{}.{}", part("versionMajor"), part("versionMinor"), part("versionPatch"));
 }
 
-Image Denoiser::denoise(const Image& color, const DenoiseGuides& guides, DenoiseQuality quality) const {
+Image Denoiser::denoise(const Image& color, const DenoiseGuides& guides, DenoiseQuality quality,
+                        ImageKind kind) const {
     assert(quality != DenoiseQuality::off);
     const bool isClean = quality == DenoiseQuality::high;
     const Image albedo = isClean ? library_->prefiltered("albedo", guides.albedo) : guides.albedo;
@@ -193,7 +194,7 @@ Image Denoiser::denoise(const Image& color, const DenoiseGuides& guides, Denoise
     library_->give(filter.get(), "albedo", albedo);
     library_->give(filter.get(), "normal", normal);
     library_->give(filter.get(), "output", output);
-    library_->setBool(filter.get(), "hdr", true);
+    library_->setBool(filter.get(), "hdr", kind == ImageKind::radiance);
     library_->setBool(filter.get(), "cleanAux", isClean);
     library_->run(filter.get(), quality);
     return output;

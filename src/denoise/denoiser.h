@@ -15,6 +15,8 @@ enum class DenoiseQuality {
     high // the guides are denoised first
 };
 
+enum class ImageKind { radiance, display };
+
 // What a denoiser is told of an image besides its colour. All images have one size.
 struct DenoiseGuides {
     Image albedo; // in [0, 1]
@@ -34,10 +36,10 @@ class Denoiser {
     // Of the library: "2.5.1".
     [[nodiscard]] std::string version() const;
 
-    // `color`: radiance, finite and not negative, of any brightness; `quality` is not off. Not for two
-    // threads at a time. Throws Error as the library does.
-    [[nodiscard]] Image denoise(const Image& color, const DenoiseGuides& guides,
-                                DenoiseQuality quality) const;
+    // `color`: finite and not negative, of any brightness or in [0, 1], as `kind` says; `quality` is not off.
+    // Not for two threads at a time. Throws Error as the library does.
+    [[nodiscard]] Image denoise(const Image& color, const DenoiseGuides& guides, DenoiseQuality quality,
+                                ImageKind kind = ImageKind::radiance) const;
 
   private:
     struct Library;

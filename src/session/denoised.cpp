@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -78,6 +79,27 @@ Image ofCovered(Image image, const Layer* coverage) {
     return image;
 }
 
+// Coverage where its 3 by 3 pixels are alike, and what a denoiser makes of it elsewhere: at edges, and behind
+// what is transparent by chance.
+Image denoisedCoverage(const Image& coverage, const DenoiseGuides& guides, const Denoiser& denoiser,
+                       DenoiseQuality quality) {
+    Image grey(coverage.width, coverage.height);
+    for (size_t i = 0; i < grey.pixels.size(); ++i)
+        grey.pixels[i] = glm::vec3(coverage.pixels[i].x);
+    Image clean = denoiser.denoise(grey, guides, quality, ImageKind::display);
+    for (uint32_t y = 0; y < coverage.height; ++y)
+        for (uint32_t x = 0; x < coverage.width; ++x) {
+            const float here = coverage.at(x, y).x;
+            bool isAlike = true;
+            for (uint32_t v = y - std::min(y, 1u); v <= std::min(y + 1, coverage.height - 1); ++v)
+                for (uint32_t u = x - std::min(x, 1u); u <= std::min(x + 1, coverage.width - 1); ++u)
+                    isAlike = isAlike && coverage.at(u, v).x == here;
+            glm::vec3& pixel = clean.pixels[size_t{y} * coverage.width + x];
+            pixel = {isAlike ? here : std::clamp(pixel.x, 0.0f, 1.0f), 0.0f, 0.0f};
+        }
+    return clean;
+}
+
 } // namespace
 
 void denoise(Rendering& rendering, const Denoiser& denoiser, DenoiseQuality quality, uint32_t asked,
@@ -85,20 +107,23 @@ void denoise(Rendering& rendering, const Denoiser& denoiser, DenoiseQuality qual
     const Layer* coverage = rendering.find(nameOfRow(kCoveragePlane));
     const Image none(rendering.radiance().width, rendering.radiance().height);
     const Image& keptLight = isSharp ? layerOf(rendering, kEmissionPlane) : none;
-    Image image = denoiser.denoise(ofCovered(withoutEmission(rendering.radiance(), keptLight), coverage),
-                                   {ofCovered(layerOf(rendering, kGuideAlbedoPlane), coverage),
-                                    ofCovered(layerOf(rendering, kGuideNormalPlane), coverage)},
-                                   quality);
-    for (size_t i = 0; i < image.pixels.size(); ++i) {
-        const float share = coverage != nullptr ? coverage->mean.pixels[i].x : 1.0f;
-        image.pixels[i] = share * image.pixels[i] + keptLight.pixels[i];
-    }
+    const DenoiseGuides guides{layerOf(rendering, kGuideAlbedoPlane), layerOf(rendering, kGuideNormalPlane)};
+    Image image =
+        denoiser.denoise(ofCovered(withoutEmission(rendering.radiance(), keptLight), coverage),
+                         {ofCovered(guides.albedo, coverage), ofCovered(guides.normal, coverage)}, quality);
+    std::optional<Image> alpha;
+    if (coverage != nullptr)
+        alpha = denoisedCoverage(coverage->mean, guides, denoiser, quality);
+    for (size_t i = 0; i < image.pixels.size(); ++i)
+        image.pixels[i] = (alpha ? alpha->pixels[i].x : 1.0f) * image.pixels[i] + keptLight.pixels[i];
     for (const uint32_t row : {kEmissionPlane, kGuideAlbedoPlane, kGuideNormalPlane})
         if ((asked >> row & 1u) == 0)
             std::erase_if(rendering.layers, [&](const Layer& layer) { return layer.name == nameOfRow(row); });
     const std::string prefix = kDenoisedLayer;
     rendering.layers.push_back(
         {kDenoisedLayer, {prefix + ".R", prefix + ".G", prefix + ".B"}, std::move(image), std::nullopt});
+    if (alpha)
+        rendering.layers.push_back({kDenoisedCoverage, {kDenoisedCoverage}, std::move(*alpha), std::nullopt});
 }
 
 } // namespace lavalight

@@ -9,12 +9,14 @@ namespace lavalight {
 
 // The layer that denoise() adds.
 inline constexpr const char* kDenoisedLayer = "denoised";
+// The coverage that it is associated with, where the rendering has coverage.
+inline constexpr const char* kDenoisedCoverage = "denoised.A";
 
 // Adds the layer kDenoisedLayer to a rendering that has kDenoisingLayers. Where the image `isSharp`, seen
 // through a pinhole, light that is seen directly is left as it is: it has no noise but at its edges, and a
-// lamp among dark walls would come out too bright. Where there is a layer of coverage, what is covered is
-// denoised, and its edges keep their coverage. Takes out the layers that no one asked for (`asked`:
-// RenderSettings::layers). Throws Error as the library does.
+// lamp among dark walls would come out too bright. Where there is a layer of coverage, it is
+// denoised too (kDenoisedCoverage), and colour is denoised as if all were covered. Takes out the layers that
+// no one asked for (`asked`: RenderSettings::layers). Throws Error as the library does.
 void denoise(Rendering& rendering, const Denoiser& denoiser, DenoiseQuality quality, uint32_t asked,
              bool isSharp);
 

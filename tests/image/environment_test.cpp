@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "render/renderer.h"
 #include "support/environment_maps.h"
 #include "support/estimator_variants.h"
 #include "support/render_scene.h"
@@ -73,6 +74,25 @@ TEST_F(EnvironmentImage, CameraSeesTheSunDiscTurnedWithItsMap) {
     expectEveryPixel(renderScene(device(), scene, settings), glm::dvec3(0.25));
     settings.lighting.rotation = 90.0f; // counter-clockwise from above: +Z comes to +X
     expectEveryPixel(renderScene(device(), scene, settings), glm::dvec3(100.25));
+}
+
+// The bits, too: films of both merge.
+TEST_F(EnvironmentImage, ARestartTurnsTheSunToWhereANewRenderHasIt) {
+    Scene scene = withMap(SceneBuilder()
+                              .add(rectangle({0, 0, 0}, {0, 0, 1}, {1, 0, 0}), lambert(glm::vec3(0.5f)))
+                              .camera(lookAt({0, 1, 0.1f}, {0, 0, 0}, 0.1f))
+                              .build(),
+                          constantMap(16, 8, glm::vec3(0.25f)));
+    scene.environmentMap->sun = {glm::normalize(glm::vec3(0.3f, 0.6f, 0.8f)), glm::vec3(100.0f), 0.01f};
+    RenderSettings settings = imageSettings(4, 4, 1);
+    Renderer renderer(device(), scene, scene.cameras.front(), settings);
+    for (const float rotation : {33.0f, -71.0f, 12.5f}) {
+        settings.lighting.rotation = rotation;
+        renderer.restart(scene, scene.cameras.front(), settings, embeddedKernel);
+    }
+    const Renderer fresh(device(), scene, scene.cameras.front(), settings);
+    EXPECT_EQ(renderer.frame().sunDirection, fresh.frame().sunDirection);
+    EXPECT_NE(renderer.frame().sunDirection, scene.environmentMap->sun->direction);
 }
 
 // Each quarter of the map has a colour of its own.
