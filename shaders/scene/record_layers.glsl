@@ -4,13 +4,13 @@
 
 // Light that reaches the camera without being scattered, after `bounce` vertices.
 void recordEmission(uint slot, uint bounce, vec3 radiance) {
-    if (sceneHas(kFeatureLayers) && bounce == 0u)
+    if (recordsLayers() && bounce == 0u)
         layers[slot].emission = radiance;
 }
 
 // Where the surface is, as the camera sees it.
 void recordPlace(uint slot, uint bounce, Interaction surface, float t) {
-    if (!sceneHas(kFeatureLayers) || bounce > 0u)
+    if (!recordsLayers() || bounce > 0u)
         return;
     layers[slot].normal = surface.n;
     layers[slot].guideNormal = surface.n;
@@ -21,7 +21,7 @@ void recordPlace(uint slot, uint bounce, Interaction surface, float t) {
 
 // What the surface looks like. Guides follow the path through smooth mirrors and glass.
 void recordAlbedo(uint slot, uint bounce, Vertex v) {
-    if (!sceneHas(kFeatureLayers) || (bounce > 0u && layers[slot].isFollowed == 0u))
+    if (!recordsLayers() || (bounce > 0u && layers[slot].isFollowed == 0u))
         return;
     const vec3 albedo = min(directionalAlbedo(v.bsdf, v.wo), vec3(1.0));
     const bool isSmoothOnly = !hasNonDelta(v.bsdf);

@@ -26,7 +26,7 @@ NextRays nothingNext() {
 
 // What a ray that meets nothing finds, after `bounce` vertices.
 vec3 escape(Ray ray, uint bounce, Path path) {
-    if (sceneHas(kFeatureBackground) && bounce == 0u)
+    if (sceneHas(kFeatureBackground) && frame.hasBackground != 0u && bounce == 0u)
         return path.throughput * frame.background;
     const vec3 found =
         path.throughput * environmentRadiance(frame, ray.direction) * foundLightWeight(path.bsdfPdf, missLightPdf(ray));
@@ -68,7 +68,7 @@ NextRays scatterAt(Hit hit, Ray ray, uint slot, uint bounce, inout Path path) {
         }
     }
     next.isCut = bounce >= frame.maxBounces;
-    const bool showsAlbedo = sceneHas(kFeatureLayers) && bounce == 0u;
+    const bool showsAlbedo = recordsLayers() && bounce == 0u;
     if (next.isCut && !showsAlbedo)
         return next;
     MediaSides media;

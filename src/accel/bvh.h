@@ -14,7 +14,7 @@ namespace lavalight {
 struct BvhConfig {
     float triangleCost = 0.3f; // cost of a triangle's test relative to that of a node's boxes
     float splitBudget = 0.2f;  // splitting large triangles may add this share of references
-    uint32_t threads = 0;      // 0: as many as there are cores; the tree does not depend on it
+    uint32_t threads = 0;      // 0: by threadLimit(); the tree does not depend on it
 };
 
 struct Bvh {

@@ -12,6 +12,7 @@
 #include "accel/presplit.h"
 #include "base/error.h"
 #include "base/log.h"
+#include "base/parallel.h"
 #include "image/pixel_limit.h"
 #include "shared/triangle.h"
 
@@ -105,7 +106,8 @@ const BuildNode* buildEmbreeTree(BuildContext& context, const Bounds& bounds, RT
 }
 
 Bvh buildNonEmpty(std::span<const Triangle> triangles, const Bounds& bounds, const BvhConfig& config) {
-    const EmbreeDevice device(rtcNewDevice(fmt::format("threads={}", config.threads).c_str()));
+    const uint32_t threads = config.threads > 0 ? config.threads : threadLimit();
+    const EmbreeDevice device(rtcNewDevice(fmt::format("threads={}", threads).c_str()));
     const EmbreeBvh arena(device ? rtcNewBVH(device.get()) : nullptr);
     if (!arena)
         throw Error("cannot build the BVH: Embree does not start (out of memory?)");

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/parallel.h"
 
 namespace lavalight {
 namespace {
@@ -34,7 +35,7 @@ void addTriangles(RTCDevice device, RTCScene scene, std::span<const Triangle> tr
 
 // A device that counts its memory.
 EmbreeDevice newDevice(std::atomic<int64_t>& bytes) {
-    EmbreeDevice device(rtcNewDevice(nullptr));
+    EmbreeDevice device(rtcNewDevice(fmt::format("threads={}", threadLimit()).c_str()));
     const auto count = [](void* counter, ssize_t more, bool) {
         *static_cast<std::atomic<int64_t>*>(counter) += more;
         return true;

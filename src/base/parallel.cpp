@@ -13,14 +13,17 @@
 namespace lavalight {
 namespace {
 
+std::atomic<unsigned> limit = 0; // limitThreads()
+
 // Threads that wait for loops. To start a thread for each loop instead takes some 50 us, as long as a loop of
 // a few hundred rays.
 class LoopThreads {
   public:
     LoopThreads() {
         const unsigned processors = std::max(1u, std::thread::hardware_concurrency());
+        const unsigned wanted = limit > 0 ? limit.load() : processors;
         try {
-            for (unsigned i = 1; i < processors; ++i) // whoever calls works too
+            for (unsigned i = 1; i < wanted; ++i) // whoever calls works too
                 threads_.emplace_back([this] { serve(); });
         } catch (const std::system_error&) { // the system grants no more: those that there are have to do
         }
@@ -106,10 +109,20 @@ class LoopThreads {
 
 } // namespace
 
+void limitThreads(unsigned threads) {
+    limit = threads;
+}
+
+unsigned threadLimit() {
+    return limit;
+}
+
 void forEachInParallel(std::size_t count, const std::function<void(std::size_t)>& work) {
-    static LoopThreads threads;
-    if (count > 1 && threads.run(count, work))
-        return;
+    if (count > 1 && limit != 1) {
+        static LoopThreads threads;
+        if (threads.run(count, work))
+            return;
+    }
     for (std::size_t i = 0; i < count; ++i)
         work(i);
 }

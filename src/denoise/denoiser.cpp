@@ -12,6 +12,7 @@
 
 #include "base/error.h"
 #include "base/os/shared_library.h"
+#include "base/parallel.h"
 
 namespace lavalight {
 namespace {
@@ -108,6 +109,8 @@ struct Denoiser::Library {
     SharedLibrary file = load();
     Device* (*newDevice)(int) = file.function<Device*(int)>("oidnNewDevice");
     void (*commitDevice)(Device*) = file.function<void(Device*)>("oidnCommitDevice");
+    void (*setDeviceInt)(Device*, const char*,
+                         int) = file.function<void(Device*, const char*, int)>("oidnSetDeviceInt");
     void (*releaseDevice)(Device*) = file.function<void(Device*)>("oidnReleaseDevice");
     int (*deviceInt)(Device*, const char*) = file.function<int(Device*, const char*)>("oidnGetDeviceInt");
     int (*error)(Device*, const char**) = file.function<int(Device*, const char**)>("oidnGetDeviceError");
@@ -171,6 +174,7 @@ struct Denoiser::Library {
 
 Denoiser::Denoiser() : library_(std::make_unique<Library>()) {
     library_->device = library_->newDevice(kDeviceOfProcessor);
+    library_->setDeviceInt(library_->device, "numThreads", static_cast<int>(threadLimit()));
     library_->commitDevice(library_->device);
     library_->requireNoError();
 }

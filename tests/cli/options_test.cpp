@@ -129,22 +129,12 @@ TEST_F(Options, OfRenderAreOnRecordUnlessTheyAreListedHereWithTheReason) {
                                           "denoise", "preset", "frames",  "fps"};
     // Options that need no record: what to write and where; how the work is cut up, which no bit depends on;
     // whether to render or refuse; whether to go on or begin again.
-    const std::set<std::string> noMatterOfTheImage{"help",
-                                                   "output",
-                                                   "png",
-                                                   "report",
-                                                   "quiet",
-                                                   "wave-size",
-                                                   "band-rows",
-                                                   "validate",
-                                                   "kernel-timeout",
-                                                   "require-device",
-                                                   "allow-external",
-                                                   "checkpoint",
-                                                   "checkpoint-every",
-                                                   "resume",
-                                                   "turntable", // "turns" tells of each image
-                                                   "watch"};
+    const std::set<std::string> noMatterOfTheImage{
+        "help",           "output",         "png",        "report",           "quiet",
+        "wave-size",      "band-rows",      "threads",    "validate",         "kernel-timeout",
+        "require-device", "allow-external", "checkpoint", "checkpoint-every", "resume",
+        "turntable", // "turns" tells of each image
+        "watch"};
     std::set<std::string> recorded =
         recordedWith({"--spp", "1", "--look-from", "0,0,1", "--look-at", "0,0,0", "--up", "0,1,0", "--fov",
                       "40", "--aperture", "0.1", "--focus", "1"});

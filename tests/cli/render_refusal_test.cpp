@@ -201,7 +201,7 @@ TEST_F(RenderRefusal, EnvironmentMapsThatAreNone) {
     for (const char* name : {"text.hdr", "text.exr", "none.hdr", "none.exr"})
         expectRefusal({"--env", name}, kFailed, name);
     expectRefusal({"--env", "picture.png"}, kWrongUsage, "picture.png");
-    expectRefusal({"--env-rotation", "90"}, kWrongUsage, "--env FILE");
+    expectRefusal({"--env-rotation", "90"}, kWrongUsage, "--env");
     expectRefusal({"--env-intensity", "-1"}, kWrongUsage, "--env-intensity");
 }
 

@@ -16,6 +16,7 @@
 #include "support/environment_variable.h"
 #include "support/run_program.h"
 #include "support/running_program.h"
+#include "support/same_image.h"
 #include "support/temporary_folder.h"
 
 namespace lavalight {
@@ -171,6 +172,17 @@ TEST_F(Render, ReportIsJsonThatAgreesWithTheImage) {
         mean += glm::dvec3(pixel) / (16.0 * 12.0);
     for (glm::length_t c = 0; c < 3; ++c)
         EXPECT_NEAR(report.at("meanRadiance").at(static_cast<size_t>(c)).get<double>(), mean[c], 1e-6);
+}
+
+TEST_F(Render, ThreadsAreLimitedAndDecideNoBit) {
+    for (const char* threads : {"1", "3"})
+        ASSERT_EQ(runLavalight({"render", "cornell-glass", "--size", "48x32", "--samples", "0:8", "--threads",
+                                threads, "-o", std::string(threads) + ".exr"},
+                               folder_.path())
+                      .exitCode,
+                  0);
+    test::expectSameImage(folder_ / "1.exr", folder_ / "3.exr");
+    EXPECT_EQ(runLavalight({"render", "--threads", "0"}, folder_.path()).exitCode, 2);
 }
 
 TEST_F(Render, ScheduleIsChosenByNameOrByTheKindOfDevice) {

@@ -2,15 +2,22 @@
 
 #include <cstdlib>
 #include <map>
+#include <optional>
 #include <string>
+
+#include <fmt/format.h>
 
 #include "base/error.h"
 #include "base/log.h"
+#include "base/parallel.h"
+#include "base/parse.h"
 #include "cli/options/named_option.h"
 
 namespace lavalight {
 
 namespace {
+
+constexpr unsigned kMostThreads = 1024;
 
 // Destructors would wait for the device, and so for ever.
 [[noreturn]] void endProcess(const std::string& message) {
@@ -31,6 +38,23 @@ DeviceOptions::DeviceOptions(CLI::App& parser) {
         ->type_name("any|cpu|gpu")
         ->transform(oneOf(kinds))
         ->default_str("any");
+    parser
+        .add_option_function<unsigned>(
+            "--threads",
+            [](unsigned threads) {
+                ::setenv("LP_NUM_THREADS", std::to_string(threads).c_str(), 1); // lavapipe's
+                limitThreads(threads);
+            },
+            "Threads of lavapipe, of rays on the host, of loading and of denoising; default: the processors")
+        ->type_name("N")
+        ->check(CLI::Validator(
+            [](std::string& text) {
+                const std::optional<unsigned> threads = parseNumber<unsigned>(text);
+                return threads && *threads >= 1 && *threads <= kMostThreads
+                           ? std::string()
+                           : fmt::format("{} is not a number from 1 to {}", text, kMostThreads);
+            },
+            ""));
     parser.add_flag("--validate", config_.validate,
                     "Run the Vulkan validation layer; any message fails the run");
     parser

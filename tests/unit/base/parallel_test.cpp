@@ -48,5 +48,14 @@ TEST(ForEachInParallel, RunsWithinALoopAndOnSeveralThreadsAtOnce) {
     EXPECT_EQ(visits, 4 * 50 * 10 * 10);
 }
 
+TEST(Parallel, OneThreadIsTheCallingOne) {
+    limitThreads(1);
+    std::atomic<int> elsewhere = 0;
+    const std::thread::id here = std::this_thread::get_id();
+    forEachInParallel(1000, [&](std::size_t) { elsewhere += std::this_thread::get_id() == here ? 0 : 1; });
+    limitThreads(0);
+    EXPECT_EQ(elsewhere, 0);
+}
+
 } // namespace
 } // namespace lavalight
