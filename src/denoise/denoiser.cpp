@@ -38,7 +38,6 @@ int qualityOf(DenoiseQuality quality) {
     case DenoiseQuality::balanced:
         return kQualityBalanced;
     case DenoiseQuality::high:
-    case DenoiseQuality::off:
         break;
     }
     return kQualityHigh;
@@ -188,7 +187,6 @@ std::string Denoiser::version() const {
 
 Image Denoiser::denoise(const Image& color, const DenoiseGuides& guides, DenoiseQuality quality,
                         ImageKind kind) const {
-    assert(quality != DenoiseQuality::off);
     const bool isClean = quality == DenoiseQuality::high;
     const Image albedo = isClean ? library_->prefiltered("albedo", guides.albedo) : guides.albedo;
     const Image normal = isClean ? library_->prefiltered("normal", guides.normal) : guides.normal;

@@ -9,7 +9,6 @@
 namespace lavalight {
 
 enum class DenoiseQuality {
-    off,
     fast, // for windows
     balanced,
     high // the guides are denoised first
@@ -33,10 +32,10 @@ class Denoiser {
     Denoiser(const Denoiser&) = delete;
     Denoiser& operator=(const Denoiser&) = delete;
 
-    // Of the library: "2.5.1".
+    // The version of the library: "2.5.1".
     [[nodiscard]] std::string version() const;
 
-    // `color`: finite and not negative, of any brightness or in [0, 1], as `kind` says; `quality` is not off.
+    // `color`: finite and not negative, of any brightness or in [0, 1], as `kind` says.
     // Not for two threads at a time. Throws Error as the library does.
     [[nodiscard]] Image denoise(const Image& color, const DenoiseGuides& guides, DenoiseQuality quality,
                                 ImageKind kind = ImageKind::radiance) const;

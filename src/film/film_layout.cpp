@@ -49,6 +49,15 @@ constexpr bool areInOrder() {
 }
 static_assert(areInOrder());
 
+// Whether the rows of planes that the rest of the house knows have the names that it knows.
+constexpr bool haveKnownNames() {
+#define PLANE_NAME(number, name, channels, components, isSigned, hasSquares, isPerHit) std::string_view(name),
+    constexpr std::array names{FILM_PLANES(PLANE_NAME)};
+#undef PLANE_NAME
+    return names[kColorPlane] == kColorLayer && names[kCoveragePlane] == kCoverageLayer;
+}
+static_assert(haveKnownNames());
+
 const std::vector<LayerPlane>& allPlanes() {
 #define LAYER_PLANE(number, name, channels, components, isSigned, hasSquares, isPerHit)                      \
     {name, channelsOf(channels), {components, isSigned, hasSquares, isPerHit}},
@@ -138,6 +147,10 @@ std::vector<FilmNumber> FilmLayout::numbers() const {
         }
     assert(word == countWord());
     return numbers;
+}
+
+std::string planeName(uint32_t row) {
+    return allPlanes().at(row).name;
 }
 
 FilmLayout layoutOf(uint32_t asked) {

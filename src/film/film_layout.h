@@ -55,6 +55,9 @@ class FilmLayout {
     std::vector<uint32_t> firstWords_; // where each plane begins, then the word of sample counts
 };
 
+// The name of the layer of a row of FILM_PLANES.
+[[nodiscard]] std::string planeName(uint32_t row);
+
 // Rows of FILM_PLANES: bit i for row i. The colour must be among them.
 [[nodiscard]] FilmLayout layoutOf(uint32_t asked);
 // The film of a render that no further layer was asked of.

@@ -27,6 +27,8 @@ struct Layer {
 
 // The layer of radiance.
 inline constexpr const char* kColorLayer = "color";
+// The layer of the share of camera paths that met something.
+inline constexpr const char* kCoverageLayer = "coverage";
 
 [[nodiscard]] inline Layer colorLayer(Image mean, std::optional<Image> variance) {
     return {kColorLayer, {"R", "G", "B"}, std::move(mean), std::move(variance)};

@@ -60,7 +60,8 @@ void addPunctuals(const Scene& scene, bool atInfinity, Lights& lights) {
     }
 }
 
-// Of samples, that the sun gets beside the rest of the environment: by what they bring, but enough for both.
+// The share of samples that the sun gets beside the rest of the environment: by what both bring, and enough
+// for each.
 double shareOf(const glm::dvec3& ofSun, const glm::dvec3& ofMap) {
     const double sun = ofSun.x + ofSun.y + ofSun.z;
     const double all = sun + ofMap.x + ofMap.y + ofMap.z;

@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 
 #include "base/error.h"
+#include "base/option_text.h"
 #include "film/film_layout.h"
 #include "render/setting_names.h"
 #include "render/setting_rules.h"
@@ -13,18 +14,6 @@
 #include "shared/film.h"
 
 namespace lavalight {
-namespace {
-
-void requireRange(const char* option, double value, double least, double most) {
-    if (!(value >= least && value <= most))
-        throw UsageError(fmt::format("{}: {} is outside the range {} to {}", option, value, least, most));
-}
-
-std::string vectorText(const glm::vec3& v) {
-    return fmt::format("{},{},{}", v.x, v.y, v.z);
-}
-
-} // namespace
 
 void checkSettings(const RenderSettings& settings) {
     requireRange("--size (width)", settings.image.width, 1, kMaxImageSide);
@@ -51,8 +40,9 @@ bool isForDenoising(uint32_t layers) {
 
 std::string namesOfLayers(uint32_t layers) {
     std::vector<std::string> names;
-    for (const LayerPlane& plane : layoutOf(layers | 1u << kColorPlane).planes().subspan(1))
-        names.push_back(plane.name);
+    for (uint32_t row = 0; row < kFilmPlaneCount; ++row)
+        if ((layers >> row & 1u) != 0)
+            names.push_back(planeName(row));
     return fmt::format("{}", fmt::join(names, ","));
 }
 
@@ -82,7 +72,7 @@ OptionPairs describe(const RenderSettings& settings) {
         if (row.decidesBits)
             add(row.name, textOf(row, settings.estimator));
     if (settings.lighting.constant)
-        add("env", vectorText(*settings.lighting.constant));
+        add("env", commaText(*settings.lighting.constant));
     if (!settings.lighting.mapFile.empty())
         add("env", settings.lighting.mapFile);
     if (settings.lighting.procedural != ProceduralEnvironment::none)
@@ -98,7 +88,7 @@ OptionPairs describe(const RenderSettings& settings) {
     if (settings.background.kind == Background::transparent)
         add("background", "transparent");
     if (settings.background.kind == Background::constant)
-        add("background", vectorText(settings.background.radiance));
+        add("background", commaText(settings.background.radiance));
     // What is denoised may be asked for as a layer too, which changes no plane.
     const uint32_t asked =
         isForDenoising(settings.layers) ? settings.layers & ~kDenoisingLayers : settings.layers;

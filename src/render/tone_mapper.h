@@ -31,7 +31,7 @@ class ToneMapper {
     [[nodiscard]] std::vector<uint32_t> map(const Film& film, const ToneSettings& tone,
                                             size_t plane = kColorPlane);
 
-    // The same of an image, with its coverage, of which x counts, or null. Values are finite.
+    // Pixels of an image in the same way, with its coverage, of which x counts, or null. Values are finite.
     [[nodiscard]] std::vector<uint32_t> map(const Image& image, const Image* coverage,
                                             const ToneSettings& tone);
 

@@ -30,7 +30,7 @@ struct Axes {
 
 const glm::dvec3 kThreeQuarter(-0.6, -0.45, -1.0);
 
-// Of a camera that looks along `forward`, and sees +Y upwards.
+// Axes of a camera that looks along `forward`, and sees +Y upwards.
 Axes levelAxes(const glm::dvec3& forward) {
     const glm::dvec3 f = glm::normalize(forward);
     const glm::dvec3 right = glm::normalize(glm::cross(f, glm::dvec3(0.0, 1.0, 0.0)));

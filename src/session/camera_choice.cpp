@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/named.h"
+#include "base/option_text.h"
 #include "render/setting_names.h"
 #include "scene/look_at.h"
 #include "scene/world_position.h"
@@ -24,11 +25,6 @@ const Camera& pickCamera(const Scene& scene, const std::string& wanted) {
     return scene.cameras[findNamed(names, {wanted, "--camera", "camera", scene.source})];
 }
 
-template <class Vector>
-std::string vectorText(const Vector& v) {
-    return fmt::format("{},{},{}", v.x, v.y, v.z);
-}
-
 void aim(Camera& camera, const Scene& scene, const CameraChoice& choice) {
     if (!choice.lookFrom && !choice.lookAt && !choice.up)
         return;
@@ -43,7 +39,7 @@ void aim(Camera& camera, const Scene& scene, const CameraChoice& choice) {
         lookAtCamera(from, at, choice.up.value_or(glm::vec3(0.0f, 1.0f, 0.0f)));
     if (!aimed)
         throw UsageError(
-            from == at ? fmt::format("--look-at: {} is where the camera is", vectorText(*choice.lookFrom))
+            from == at ? fmt::format("--look-at: {} is where the camera is", commaText(*choice.lookFrom))
                        : "--up: it must not be 0,0,0 or lie along the direction of view");
     camera = *aimed;
     camera.focusDistance = glm::dot(at - from, camera.forward);
@@ -133,7 +129,7 @@ OptionPairs describe(const CameraChoice& choice) {
         return value ? std::optional(fmt::format("{}", *value)) : std::nullopt;
     };
     const auto vector = [](const auto& value) {
-        return value ? std::optional(vectorText(*value)) : std::nullopt;
+        return value ? std::optional(commaText(*value)) : std::nullopt;
     };
     add("look-from", vector(choice.lookFrom));
     add("look-at", vector(choice.lookAt));

@@ -5,10 +5,8 @@
 namespace lavalight {
 namespace {
 
-constexpr std::array<SettingName<DenoiseQuality>, 4> kQualities{{{"off", DenoiseQuality::off},
-                                                                 {"high", DenoiseQuality::high},
-                                                                 {"balanced", DenoiseQuality::balanced},
-                                                                 {"fast", DenoiseQuality::fast}}};
+constexpr std::array<SettingName<DenoiseQuality>, 3> kQualities{
+    {{"high", DenoiseQuality::high}, {"balanced", DenoiseQuality::balanced}, {"fast", DenoiseQuality::fast}}};
 
 } // namespace
 

@@ -14,17 +14,13 @@
 namespace lavalight {
 namespace {
 
-std::string nameOfRow(uint32_t row) {
-    return layoutOf(1u << kColorPlane | 1u << row).planes().back().name;
-}
-
 const Image& layerOf(const Rendering& rendering, uint32_t row) {
-    const Layer* layer = rendering.find(nameOfRow(row));
+    const Layer* layer = rendering.find(planeName(row));
     assert(layer != nullptr);
     return layer->mean;
 }
 
-// Of radiance: all but what is seen directly; means may be infinite where sums saturated.
+// All radiance but what is seen directly. Means may be infinite, where sums saturated.
 Image withoutEmission(const Image& radiance, const Image& emission) {
     Image image(radiance.width, radiance.height);
     for (size_t i = 0; i < image.pixels.size(); ++i)
@@ -104,7 +100,7 @@ Image denoisedCoverage(const Image& coverage, const DenoiseGuides& guides, const
 
 void denoise(Rendering& rendering, const Denoiser& denoiser, DenoiseQuality quality, uint32_t asked,
              bool isSharp) {
-    const Layer* coverage = rendering.find(nameOfRow(kCoveragePlane));
+    const Layer* coverage = rendering.find(kCoverageLayer);
     const Image none(rendering.radiance().width, rendering.radiance().height);
     const Image& keptLight = isSharp ? layerOf(rendering, kEmissionPlane) : none;
     const DenoiseGuides guides{layerOf(rendering, kGuideAlbedoPlane), layerOf(rendering, kGuideNormalPlane)};
@@ -118,7 +114,7 @@ void denoise(Rendering& rendering, const Denoiser& denoiser, DenoiseQuality qual
         image.pixels[i] = (alpha ? alpha->pixels[i].x : 1.0f) * image.pixels[i] + keptLight.pixels[i];
     for (const uint32_t row : {kEmissionPlane, kGuideAlbedoPlane, kGuideNormalPlane})
         if ((asked >> row & 1u) == 0)
-            std::erase_if(rendering.layers, [&](const Layer& layer) { return layer.name == nameOfRow(row); });
+            std::erase_if(rendering.layers, [&](const Layer& layer) { return layer.name == planeName(row); });
     const std::string prefix = kDenoisedLayer;
     rendering.layers.push_back(
         {kDenoisedLayer, {prefix + ".R", prefix + ".G", prefix + ".B"}, std::move(image), std::nullopt});

@@ -11,13 +11,12 @@ namespace lavalight {
 namespace {
 
 constexpr double kMiddleGrey = 0.18;
-constexpr const char* kCoverage = "coverage"; // the layer of shaders/shared/film.h
 
 // Signals that are all but white or black.
 constexpr uint32_t kWhite = 250;
 constexpr uint32_t kBlack = 5;
 
-// Of linear Rec. 709.
+// Luminance of linear Rec. 709.
 double luminance(const glm::vec3& color) {
     return glm::dot(glm::dvec3(color), glm::dvec3(0.2126, 0.7152, 0.0722));
 }
@@ -25,7 +24,7 @@ double luminance(const glm::vec3& color) {
 } // namespace
 
 float autoExposure(const Rendering& rendering) {
-    const Layer* coverage = rendering.find(kCoverage);
+    const Layer* coverage = rendering.find(kCoverageLayer);
     const std::vector<glm::vec3>& pixels = rendering.radiance().pixels;
     double sum = 0.0;
     double weights = 0.0;

@@ -55,7 +55,7 @@ Scene loadLitScene(const std::string& nameOrPath, const ImportOptions& options,
             "the scene has no light: a studio lights it; give another light with --env");
     }
     if (lighting.rotation != 0.0f && !scene.environmentMap)
-        throw UsageError("--env-rotation: there is no map to turn; give one with --env");
+        throw UsageError("--env-rotation: cannot turn the environment: it is not a map; try --env studio");
     return scene;
 }
 

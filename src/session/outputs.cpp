@@ -125,7 +125,7 @@ void writeOutputs(RenderJob& job, const Outputs& outputs, OutputStyle& style, To
             style.tone.exposure = autoExposure(rendering);
         report.tone = style.tone;
         const Layer* denoised = rendering.find(kDenoisedLayer);
-        const Layer* coverage = rendering.find(denoised != nullptr ? kDenoisedCoverage : "coverage");
+        const Layer* coverage = rendering.find(denoised != nullptr ? kDenoisedCoverage : kCoverageLayer);
         const std::vector<uint32_t> pixels =
             denoised != nullptr
                 ? toneMapper->map(denoised->mean, coverage != nullptr ? &coverage->mean : nullptr, style.tone)

@@ -33,12 +33,12 @@ void requireOutputs(const Outputs& outputs);
 
 // How images are written: what goes into the EXR file, and the PNG's tone mapping.
 struct OutputStyle {
-    bool keepsFilm = false;                     // the EXR file holds the exact film beside the picture
-    ToneSettings tone;                          // tone mapping of the PNG
-    bool exposesByImage = false;                // the first PNG settles the exposure: autoExposure()
-    std::shared_ptr<const Denoiser> denoiser{}; // of the picture; null: it is not denoised
-    DenoiseQuality quality = DenoiseQuality::off;
-    uint32_t layers = 0; // that the EXR file is asked for (RenderSettings::layers)
+    bool keepsFilm = false;                        // the EXR file holds the exact film beside the picture
+    ToneSettings tone;                             // tone mapping of the PNG
+    bool exposesByImage = false;                   // the first PNG settles the exposure: autoExposure()
+    std::shared_ptr<const Denoiser> denoiser{};    // of the picture; null: it is not denoised
+    DenoiseQuality quality = DenoiseQuality::high; // of denoising
+    uint32_t layers = 0;                           // that the EXR file is asked for (RenderSettings::layers)
 };
 
 // Writes the image so far, and completes the job's report. An exposure that the image settles goes into

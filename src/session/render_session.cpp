@@ -28,7 +28,7 @@ void warnOfFarPlane(PreparedScene& prepared) {
             prepared.camera.name, prepared.camera.zfar, hidden));
 }
 
-// Of an image whose width the camera decides: by resolveSize().
+// Width over height; where the camera decides the width, as resolveSize() has it.
 float aspectOf(const ImageSettings& image) {
     constexpr float kDefault = 16.0f / 9.0f;
     return image.width > 0 ? static_cast<float>(image.width) / static_cast<float>(image.height) : kDefault;

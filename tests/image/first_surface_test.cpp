@@ -29,6 +29,14 @@ class FirstSurface : public DeviceTest {
         settings.layers = layers;
         return renderScene(device(), scene, settings).rendering;
     }
+    // Renders the scene in every schedule, and lets `check` see each image.
+    template <typename Check>
+    void inEverySchedule(const SceneBuilder& scene, const Check& check) {
+        for (const Schedule schedule : schedulesOf(device())) {
+            SCOPED_TRACE(static_cast<int>(schedule));
+            check(render(scene.build(), schedule));
+        }
+    }
     [[nodiscard]] static glm::vec3 at(const Rendering& image, const std::string& layer, uint32_t x,
                                       uint32_t y) {
         const Layer* found = image.find(layer);
@@ -40,44 +48,36 @@ class FirstSurface : public DeviceTest {
     }
 };
 
-// A box of side 1 in front of a camera without perspective at z = 5, which sees 2 m by 2 m.
+// Scenes under the sky, seen without perspective from z = 5.
+SceneBuilder seenFromAbove(float halfHeight) {
+    return SceneBuilder().environment(kSky).camera(lookAtOrthographic({0, 0, 5}, {0, 0, 0}, halfHeight));
+}
+
+// A box of side 1 in a view of 2 m by 2 m.
 TEST_F(FirstSurface, LayersOfABoxAreItsOwnAndThoseOfTheSkyAreNone) {
-    const Scene scene = SceneBuilder()
-                            .add(cube({0, 0, 0}, 0.5f), lambert(kRed))
-                            .environment(kSky)
-                            .camera(lookAtOrthographic({0, 0, 5}, {0, 0, 0}, 1.0f))
-                            .build();
-    for (const Schedule schedule : schedulesOf(device())) {
-        SCOPED_TRACE(static_cast<int>(schedule));
-        const Rendering image = render(scene, schedule);
-        constexpr uint32_t kX =
-            6; // samples of this pixel fall on x from -0.25 to -0.125, the mean is known roughly
-        constexpr uint32_t kY = 9;
-        expectNear(at(image, "albedo", kX, kY), kRed);
-        expectNear(at(image, "guide-albedo", kX, kY), kRed);
-        expectNear(at(image, "normal", kX, kY), {0, 0, 1});
-        expectNear(at(image, "guide-normal", kX, kY), {0, 0, 1});
-        EXPECT_NEAR(at(image, "depth", kX, kY).x, 4.5f, 1e-5f);
-        expectNear(at(image, "position", kX, kY), {-0.1875f, -0.1875f, 0.5f}, 0.03f);
-        EXPECT_EQ(at(image, "hits", kX, kY).x, 1.0f);
-        expectNear(at(image, "emission", kX, kY), glm::vec3(0.0f));
-        for (const char* layer :
-             {"albedo", "normal", "depth", "position", "hits", "guide-albedo", "guide-normal"})
-            EXPECT_EQ(at(image, layer, 0, 0), glm::vec3(0.0f)) << layer;
-        expectNear(at(image, "emission", 0, 0), kSky);
-    }
+    inEverySchedule(
+        seenFromAbove(1.0f).add(cube({0, 0, 0}, 0.5f), lambert(kRed)), [](const Rendering& image) {
+            constexpr uint32_t kX = 6; // x from -0.25 to -0.125
+            constexpr uint32_t kY = 9;
+            expectNear(at(image, "albedo", kX, kY), kRed);
+            expectNear(at(image, "guide-albedo", kX, kY), kRed);
+            expectNear(at(image, "normal", kX, kY), {0, 0, 1});
+            expectNear(at(image, "guide-normal", kX, kY), {0, 0, 1});
+            EXPECT_NEAR(at(image, "depth", kX, kY).x, 4.5f, 1e-5f);
+            expectNear(at(image, "position", kX, kY), {-0.1875f, -0.1875f, 0.5f}, 0.03f);
+            EXPECT_EQ(at(image, "hits", kX, kY).x, 1.0f);
+            expectNear(at(image, "emission", kX, kY), glm::vec3(0.0f));
+            for (const char* layer :
+                 {"albedo", "normal", "depth", "position", "hits", "guide-albedo", "guide-normal"})
+                EXPECT_EQ(at(image, layer, 0, 0), glm::vec3(0.0f)) << layer;
+            expectNear(at(image, "emission", 0, 0), kSky);
+        });
 }
 
 // Depth, normal and position are means over what is hit; the others over all samples.
 TEST_F(FirstSurface, APixelThatIsHalfSkyHasTheWholeDepthOfTheOtherHalf) {
-    const Scene scene = SceneBuilder()
-                            .add(rectangle({-10 + 1.0f / kSide, 0, 0}, {10, 0, 0}, {0, 10, 0}), lambert(kRed))
-                            .environment(kSky)
-                            .camera(lookAtOrthographic({0, 0, 5}, {0, 0, 0}, 1.0f))
-                            .build();
-    for (const Schedule schedule : schedulesOf(device())) {
-        SCOPED_TRACE(static_cast<int>(schedule));
-        const Rendering image = render(scene, schedule);
+    const Shape half = rectangle({-10 + 1.0f / kSide, 0, 0}, {10, 0, 0}, {0, 10, 0});
+    inEverySchedule(seenFromAbove(1.0f).add(half, lambert(kRed)), [](const Rendering& image) {
         constexpr uint32_t kEdge = kSide / 2;
         const float hits = at(image, "hits", kEdge, 3).x;
         EXPECT_NEAR(hits, 0.5f, 0.15f);
@@ -85,33 +85,36 @@ TEST_F(FirstSurface, APixelThatIsHalfSkyHasTheWholeDepthOfTheOtherHalf) {
         expectNear(at(image, "normal", kEdge, 3), {0, 0, 1});
         expectNear(at(image, "albedo", kEdge, 3), hits * kRed);
         expectNear(at(image, "emission", kEdge, 3), (1.0f - hits) * kSky);
-    }
+    });
 }
 
-// A mirror at 45 degrees shows a red wall that faces -x.
+// A mirror at 45 degrees shows a red wall at its right, which faces -x.
 TEST_F(FirstSurface, GuidesGoThroughMirrorsAndTheLayersDoNot) {
     Material mirror;
     mirror.metallic = 1.0f;
     mirror.roughness = 0.0f;
-    mirror.doubleSided = true;
-    const glm::vec3 across = glm::normalize(glm::vec3(1, 0, 1));
-    const Scene scene = SceneBuilder()
-                            .add(rectangle({0, 0, 0}, 3.0f * across, {0, 3, 0}), mirror)
-                            .add(rectangle({6, 0, 0}, {0, 0, 9}, {0, 9, 0}), lambert(kRed))
-                            .environment(kSky)
-                            .camera(lookAtOrthographic({0, 0, 5}, {0, 0, 0}, 0.5f))
-                            .build();
-    const glm::vec3 normal = glm::normalize(glm::vec3(-1, 0, 1));
-    for (const Schedule schedule : schedulesOf(device())) {
-        SCOPED_TRACE(static_cast<int>(schedule));
-        const Rendering image = render(scene, schedule);
-        const glm::vec3 seen = at(image, "normal", 8, 8);
-        const bool facesRight = glm::dot(seen, glm::vec3(1, 0, 0)) > 0.0f;
-        expectNear(seen, facesRight ? glm::vec3(-normal.x, 0, normal.z) : normal);
+    const glm::vec3 across = glm::normalize(glm::vec3(1, 0, -1));
+    const SceneBuilder scene = seenFromAbove(0.5f)
+                                   .add(rectangle({0, 0, 0}, 3.0f * across, {0, 3, 0}), mirror)
+                                   .add(rectangle({6, 0, 0}, {0, 0, 9}, {0, 9, 0}), lambert(kRed));
+    inEverySchedule(scene, [](const Rendering& image) {
+        expectNear(at(image, "normal", 8, 8), glm::normalize(glm::vec3(1, 0, 1)));
         expectNear(at(image, "albedo", 8, 8), glm::vec3(1.0f), 1e-3f);
-        expectNear(at(image, "guide-albedo", 8, 8), facesRight ? kRed : glm::vec3(1.0f), 1e-3f);
-        if (facesRight)
-            expectNear(at(image, "guide-normal", 8, 8), {-1, 0, 0});
+        expectNear(at(image, "guide-albedo", 8, 8), kRed, 1e-3f);
+        expectNear(at(image, "guide-normal", 8, 8), {-1, 0, 0});
+    });
+}
+
+TEST_F(FirstSurface, AlbedoIsThereWithoutScattering) {
+    const Scene scene = seenFromAbove(1.0f).add(cube({0, 0, 0}, 0.5f), lambert(kRed)).build();
+    for (const Schedule schedule : schedulesOf(device())) {
+        RenderSettings settings = imageSettings(kSide, kSide, 2);
+        settings.work.schedule = schedule;
+        settings.layers = 1u << kAlbedoPlane;
+        settings.estimator.maxBounces = 0;
+        const Rendering image = renderScene(device(), scene, settings).rendering;
+        expectNear(at(image, "albedo", 8, 8), kRed);
+        EXPECT_EQ(image.radiance().at(8, 8), glm::vec3(0.0f));
     }
 }
 

@@ -68,8 +68,8 @@ RenderPlan RenderCommand::plan() const {
     plan.style = {options_.keepsFilm(), tone_.settings(), tone_.isAutomatic()};
     plan.style.tone.backdrop = background_.backdrop();
     plan.style.layers = plan.settings.layers;
-    plan.style.quality = denoise_.quality();
-    if (plan.style.quality != DenoiseQuality::off) {
+    if (const std::optional<DenoiseQuality> quality = denoise_.quality()) {
+        plan.style.quality = *quality;
         plan.style.denoiser = std::make_shared<const Denoiser>();
         plan.settings.layers |= kDenoisingLayers;
     }
@@ -81,7 +81,7 @@ void RenderCommand::checkOptions() const {
         throw UsageError("--background: a colour is for a PNG; give -o OUT.png, or --background transparent");
     if (tone_.isGiven() && outputs_.png.empty())
         throw UsageError("--tonemap and --exposure are for a PNG; give -o OUT.png, or leave them out");
-    if (denoise_.quality() != DenoiseQuality::off && options_.keepsFilm())
+    if (denoise_.quality() && options_.keepsFilm())
         throw UsageError(
             "--denoise and --samples: a part of the samples is not denoised; join the parts without it");
     if (layers_.layers() != 0 && outputs_.exr.empty())

@@ -25,9 +25,9 @@ DenoiseOptions::DenoiseOptions(CLI::App& parser) : parser_(&parser) {
             ""));
 }
 
-DenoiseQuality DenoiseOptions::quality() const {
+std::optional<DenoiseQuality> DenoiseOptions::quality() const {
     if (parser_->count("--denoise") == 0)
-        return DenoiseQuality::off;
+        return std::nullopt;
     for (const SettingName<DenoiseQuality>& name : settingNames<DenoiseQuality>())
         if (name.name == quality_)
             return name.value;

@@ -1,6 +1,7 @@
 // The option that denoises pictures.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -16,7 +17,8 @@ class DenoiseOptions {
     DenoiseOptions(const DenoiseOptions&) = delete;
     DenoiseOptions& operator=(const DenoiseOptions&) = delete;
 
-    [[nodiscard]] DenoiseQuality quality() const;
+    // None: the option was not given.
+    [[nodiscard]] std::optional<DenoiseQuality> quality() const;
 
   private:
     CLI::App* parser_; // asked whether the option was given

@@ -70,10 +70,11 @@ LightingSettings EnvironmentOptions::lighting() const {
             environment_));
     }
     if (parser_->count("--env-rotation") > 0 && lighting.constant)
-        throw UsageError("--env-rotation: there is no map to turn; give one with --env");
+        throw UsageError("--env-rotation: cannot turn the environment: it is not a map; try --env studio");
     for (const char* option : {"--sun-elevation", "--sun-azimuth", "--turbidity"})
         if (parser_->count(option) > 0 && lighting.procedural != ProceduralEnvironment::sky)
-            throw UsageError(fmt::format("{}: there is no sky; give --env sky", option));
+            throw UsageError(
+                fmt::format("{}: cannot change the sky: the environment is not one; try --env sky", option));
     return lighting;
 }
 

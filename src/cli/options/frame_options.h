@@ -22,7 +22,7 @@ class FrameOptions {
     [[nodiscard]] bool isAsked() const;
     // Throws UsageError for a range or a rate that makes no sense.
     [[nodiscard]] FrameRange range() const;
-    // Of a turntable's frame; none: the frames are moments of an animation.
+    // The turns of a turntable's frame; none: the frames are moments of an animation.
     [[nodiscard]] std::optional<float> turnsOf(uint32_t frame) const;
     [[nodiscard]] bool isTurntable() const { return turntable_ > 0; }
 

@@ -21,7 +21,7 @@ struct Offer {
 std::vector<Offer> offers() {
     std::vector<Offer> offers;
     for (const uint32_t row : {kAlbedoPlane, kNormalPlane, kDepthPlane, kPositionPlane, kEmissionPlane})
-        offers.push_back({layoutOf(1u << kColorPlane | 1u << row).planes()[1].name, row});
+        offers.push_back({planeName(row), row});
     return offers;
 }
 
@@ -53,7 +53,7 @@ uint32_t LayerOptions::layers() const {
         const auto found =
             std::find_if(all.begin(), all.end(), [&](const Offer& offer) { return offer.name == name; });
         if (found == all.end())
-            throw UsageError(fmt::format("--aov: there is no layer \"{}\"; there are {}", name,
+            throw UsageError(fmt::format("--aov: cannot record a layer \"{}\": it is not known; try {}", name,
                                          fmt::join(namesOf(all), ", ")));
         layers |= 1u << found->row;
     }

@@ -10,7 +10,7 @@
 #include <glm/gtc/constants.hpp>
 
 #include "base/embedded_file.h"
-#include "base/error.h"
+#include "base/option_text.h"
 #include "base/parallel.h"
 #include "base/parse.h"
 
@@ -142,11 +142,6 @@ glm::dvec3 sunIrradiance(const SkySettings& settings) {
         irradiance[c] = kSolarConstant * kSunColor[c] * std::exp(-air * (molecules + aerosols));
     }
     return irradiance;
-}
-
-void requireRange(const char* option, float value, float least, float most) {
-    if (!(value >= least && value <= most))
-        throw UsageError(fmt::format("{}: {} is outside the range {} to {}", option, value, least, most));
 }
 
 glm::dvec3 directionOf(double u, double v) {
