@@ -13,6 +13,7 @@
 #include "render/setting_names.h"
 #include "session/builtin.h"
 #include "support/render_scene.h"
+#include "support/scene_builder.h"
 #include "support/test_device.h"
 #include "support/tone_reference.h"
 
@@ -89,6 +90,41 @@ TEST_F(ToneMapperTest, ExposuresWithoutMeasureEndInBlackAndWhite) {
     EXPECT_EQ(mapper_.map(renderer->film(), {ToneCurve::linear, -1000.0f}),
               std::vector<uint32_t>(bright.size(), kBlack));
     EXPECT_NE(std::count(bright.begin(), bright.end(), kWhite), 0);
+}
+
+// Of a quarter covered, associated colour is a quarter of what shines.
+TEST_F(ToneMapperTest, AlphaIsStraightAndABackdropArrivesAsGivenFromFilmAndImageAlike) {
+    RenderSettings settings = imageSettings(64, 16, 16);
+    settings.background.kind = Background::transparent;
+    Material pane = light(glm::vec3(0.5f));
+    pane.alphaMode = AlphaMode::blend;
+    pane.alpha = 0.25f;
+    const Scene scene = SceneBuilder()
+                            .add(rectangle({-2, 0, 0}, {2, 0, 0}, {0, 9, 0}), pane)
+                            .camera(lookAtOrthographic({0, 0, 5}, {0, 0, 0}, 1.0f))
+                            .build();
+    Renderer renderer(device(), scene, scene.cameras.front(), settings);
+    renderer.render([](double) { return true; });
+    const Rendering rendering = renderer.rendering();
+    const Image& coverage = rendering.find(kCoverageLayer)->mean;
+    const ToneSettings open{ToneCurve::linear, 1.0f}; // 0.5 shines as 1
+    ToneSettings onRed = open;
+    onRed.backdrop = glm::vec3(1.0f, 0.0f, 0.0f);
+    const std::vector<uint32_t> pixels = mapper_.map(renderer.film(), open);
+    const std::vector<uint32_t> backed = mapper_.map(renderer.film(), onRed);
+    EXPECT_EQ(mapper_.map(rendering.radiance(), &coverage, open), pixels);
+    EXPECT_EQ(mapper_.map(rendering.radiance(), &coverage, onRed), backed);
+    size_t partly = 0;
+    for (size_t i = 0; i < pixels.size(); ++i) {
+        const double alpha = coverage.pixels[i].x;
+        ASSERT_NEAR(pixels[i] >> 24, 255.0 * alpha, 0.51) << i;
+        ASSERT_EQ(pixels[i] & 0xffffffu, alpha > 0.0 ? 0xffffffu : 0u) << i;
+        ASSERT_EQ(backed[i] & 0xff0000ffu, 0xff0000ffu) << i; // opaque, and red in red and in white
+        const double green = srgbSignal(glm::dvec3(alpha)).y;
+        ASSERT_NEAR(backed[i] >> 8 & 0xffu, 255.0 * green, 0.52) << i;
+        partly += alpha > 0.0 && alpha < 1.0 ? 1 : 0;
+    }
+    EXPECT_GT(partly, 200u);
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 #include "base/parallel.h"
 
 #include <atomic>
+#include <chrono>
 #include <stdexcept>
 #include <thread>
 #include <vector>
@@ -48,11 +49,14 @@ TEST(ForEachInParallel, RunsWithinALoopAndOnSeveralThreadsAtOnce) {
     EXPECT_EQ(visits, 4 * 50 * 10 * 10);
 }
 
-TEST(Parallel, OneThreadIsTheCallingOne) {
+TEST(ForEachInParallel, WithALimitOfOneRunsOnTheCallingThread) {
     limitThreads(1);
     std::atomic<int> elsewhere = 0;
     const std::thread::id here = std::this_thread::get_id();
-    forEachInParallel(1000, [&](std::size_t) { elsewhere += std::this_thread::get_id() == here ? 0 : 1; });
+    forEachInParallel(20, [&](std::size_t) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(1)); // so that another thread could take one
+        elsewhere += std::this_thread::get_id() == here ? 0 : 1;
+    });
     limitThreads(0);
     EXPECT_EQ(elsewhere, 0);
 }

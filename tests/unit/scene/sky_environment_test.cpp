@@ -68,6 +68,8 @@ TEST(SkyEnvironment, SunStandsWhereItIsToldAndReddensTowardsTheHorizon) {
     const double green = noon.sun->radiance.y * 2.0 * pi * noon.sun->size / kUnit;
     EXPECT_NEAR(green, 133.0, 3.0);
     const EnvironmentMap evening = makeSky({.sunElevation = 5.0f});
+    // Through 10.4 times the air overhead (Kasten 1965), 195 x 0.975 x exp(-10.4 (0.101 + 0.202)).
+    EXPECT_NEAR(evening.sun->radiance.y * 2.0 * pi * evening.sun->size / kUnit, 8.4, 0.2);
     const auto redness = [](const EnvironmentMap& sky) { return sky.sun->radiance.x / sky.sun->radiance.z; };
     EXPECT_GT(redness(evening), 4.0f * redness(noon));
     EXPECT_GT(noon.sun->radiance.y, 5.0f * evening.sun->radiance.y);
