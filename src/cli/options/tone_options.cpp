@@ -13,7 +13,7 @@ namespace lavalight {
 
 ToneOptions::ToneOptions(CLI::App& parser) : parser_(&parser) {
     addNamed(parser, "--tonemap", tone_.curve,
-             "Curve from radiance to the display: clamped, Khronos PBR Neutral, AgX, ACES");
+             "Curve from radiance to the display: Khronos PBR Neutral, none (clamped), AgX, ACES");
     parser
         .add_option(
             "--exposure", exposure_,
