@@ -41,3 +41,25 @@ Ray cameraRay(FrameParameters parameters, vec2 position, vec2 lens) {
     const InteriorList interior = InteriorList(parameters.startOuter, parameters.startInner, parameters.startNotes);
     return Ray(origin, kNoSurface, direction, 0.0, 0u, interior);
 }
+
+// Where a pinhole camera with these vectors of `parameters` shows a point: a share of the image's sides from its top left
+// corner. Points behind the camera have no such place.
+vec2 placeInImage(vec3 toPoint, vec3 right, vec3 up, vec3 forward) {
+    if (sceneHas(kFeaturePanorama))
+        return directionToEquirectangular(normalize(toPoint));
+    const float depth = sceneHas(kFeatureOrthographic) ? 1.0 : dot(toPoint, forward);
+    const vec2 ndc = vec2(dot(toPoint, right) / dot(right, right), -dot(toPoint, up) / dot(up, up)) / depth;
+    return 0.5 * ndc + 0.5;
+}
+
+// How far a point moves to the next frame, in pixels to the right and down. Panoramas are round.
+vec2 pixelMotion(FrameParameters parameters, vec3 now, vec3 next) {
+    const vec2 from =
+        placeInImage(now - parameters.cameraPosition, parameters.cameraRight, parameters.cameraUp, parameters.cameraForward);
+    const vec2 to =
+        placeInImage(next - parameters.nextPosition, parameters.nextRight, parameters.nextUp, parameters.nextForward);
+    vec2 way = to - from;
+    if (sceneHas(kFeaturePanorama))
+        way.x -= round(way.x);
+    return way * vec2(parameters.imageWidth, parameters.imageHeight);
+}

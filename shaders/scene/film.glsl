@@ -4,7 +4,7 @@
 #include "shared/film.h"
 
 layout(set = 0, binding = BINDING_FILM, std430) buffer Film { uint film[]; };
-// The film's planes, bit i for row i of FILM_PLANES.
+// The film's planes: bit i for row i of FILM_PLANES, and kNegativeWeights.
 layout(constant_id = CONSTANT_FILM_PLANES) const uint kPlanesAsked = 1u;
 
 bool filmHas(uint plane) {
@@ -69,7 +69,7 @@ void storeComponent(FilmPlane shape, uint first, uint pixel, ComponentSums sums)
 }
 
 PlaneSums loadSums(uint plane, uint pixel) {
-    const FilmPlane shape = kFilmPlanes[plane];
+    const FilmPlane shape = shapeOf(plane, kPlanesAsked);
     const uint first = firstWordOf(plane, kPlanesAsked);
     PlaneSums sums;
     sums.x = loadComponent(shape, first, pixel);
@@ -81,7 +81,7 @@ PlaneSums loadSums(uint plane, uint pixel) {
 }
 
 void storeSums(uint plane, uint pixel, PlaneSums sums) {
-    const FilmPlane shape = kFilmPlanes[plane];
+    const FilmPlane shape = shapeOf(plane, kPlanesAsked);
     const uint first = firstWordOf(plane, kPlanesAsked);
     storeComponent(shape, first, pixel, sums.x);
     if (shape.components > 1u)
@@ -102,7 +102,7 @@ void addComponent(FilmPlane shape, inout ComponentSums sums, float value, inout 
 
 // Components of `value` that the plane lacks must be 0.
 void addValue(uint plane, inout PlaneSums sums, vec3 value, inout FilmEvents events) {
-    const FilmPlane shape = kFilmPlanes[plane];
+    const FilmPlane shape = shapeOf(plane, kPlanesAsked);
     if (shape.isSigned == 0u && any(lessThan(value, vec3(0.0))))
         ++events.negative;
     addComponent(shape, sums.x, value.x, events);
@@ -110,6 +110,16 @@ void addValue(uint plane, inout PlaneSums sums, vec3 value, inout FilmEvents eve
         addComponent(shape, sums.y, value.y, events);
     if (shape.components > 2u)
         addComponent(shape, sums.z, value.z, events);
+}
+
+ComponentSums withSum(ComponentSums sums, ComponentSums whole, ComponentSums part) {
+    sums.sum = minus(whole.sum, part.sum);
+    return sums;
+}
+
+// `sums` with the differences of two planes' sums in place of its own: exact, as the sums of rounded differences are not.
+PlaneSums withSums(PlaneSums sums, PlaneSums whole, PlaneSums part) {
+    return PlaneSums(withSum(sums.x, whole.x, part.x), withSum(sums.y, whole.y, part.y), withSum(sums.z, whole.z, part.z));
 }
 
 uint saturatedSums(FilmPlane shape, ComponentSums sums) {
@@ -120,7 +130,7 @@ uint saturatedSums(FilmPlane shape, ComponentSums sums) {
 
 // Sums that have left their range. They are counted when they do, not once a sample: so the count follows from the film.
 uint saturatedSums(uint plane, PlaneSums sums) {
-    const FilmPlane shape = kFilmPlanes[plane];
+    const FilmPlane shape = shapeOf(plane, kPlanesAsked);
     return saturatedSums(shape, sums.x) + (shape.components > 1u ? saturatedSums(shape, sums.y) : 0u) +
            (shape.components > 2u ? saturatedSums(shape, sums.z) : 0u);
 }

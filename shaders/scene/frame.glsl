@@ -1,4 +1,5 @@
 // Frame parameters, the range of the wave, and where a slot belongs in the image.
+#include "lib/features.glsl"
 #include "lib/sampling/sampler.glsl"
 #include "shared/bindings.h"
 #include "shared/frame.h"
@@ -12,8 +13,12 @@ uint slotCount() {
     return range.pixelCount * range.sampleCount;
 }
 
+// Pixel of the image, row by row from the top. The film may hold a part of the image alone.
 uint pixelOfSlot(uint slot) {
-    return range.firstPixel + slot / range.sampleCount;
+    const uint pixel = range.firstPixel + slot / range.sampleCount;
+    if (!sceneHas(kFeatureCrop))
+        return pixel;
+    return frame.cropStart + pixel / frame.cropWidth * frame.imageWidth + pixel % frame.cropWidth;
 }
 
 SampleKey keyOfSlot(uint slot, uint vertex) {

@@ -16,9 +16,10 @@ void startLayers(uint slot) {
     if (!recordsLayers())
         return;
     PathLayers none;
-    none.albedo = none.normal = none.position = none.emission = none.guideAlbedo = none.guideNormal = vec3(0.0);
-    none.depth = 0.0;
-    none.isFollowed = 0u;
-    none.unused0 = none.unused1 = none.unused2 = none.unused3 = 0u;
+    none.albedo = none.normal = none.position = none.emission = none.guideAlbedo = none.guideNormal = none.direct =
+        vec3(0.0);
+    none.depth = none.b1 = none.b2 = 0.0;
+    none.surface = kNoSurface;
+    none.isFollowed = none.isPastDirect = none.unused = 0u;
     layers[slot] = none;
 }

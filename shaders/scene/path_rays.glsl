@@ -2,19 +2,22 @@
 #include "lib/camera.glsl"
 #include "lib/interior_list.glsl"
 #include "lib/math/ray_offset.glsl"
+#include "lib/sampling/pixel_filter.glsl"
 #include "scene/alpha.glsl"
 #include "scene/frame.glsl"
 #include "scene/intersect.glsl"
 
 const Path kNewPath = Path(vec3(1.0), 0.0, vec3(0.0), 1.0);
 
-// Through a random point of the slot's pixel, and of the lens.
+// Through a random point of the slot's pixel, drawn by the pixel filter, and of the lens.
 Ray cameraRayOf(uint slot) {
     const uint pixel = pixelOfSlot(slot);
     const vec2 corner = vec2(pixel % frame.imageWidth, pixel / frame.imageWidth);
     const SampleKey key = keyOfSlot(slot, 0u);
     const vec2 lens = sceneHas(kFeatureLens) ? sample2D(key, kDimensionLens) : vec2(0.0);
-    return cameraRay(frame, corner + sample2D(key, kDimensionPixel), lens);
+    const vec2 u = sample2D(key, kDimensionPixel);
+    const bool isFiltered = sceneHas(kFeatureFilter) && frame.hasFilter != 0u;
+    return cameraRay(frame, corner + (isFiltered ? filteredPosition(frame, u) : u), lens);
 }
 
 // Where a ray meets the boundary of a solid, and where it meets none.

@@ -8,6 +8,15 @@ void recordEmission(uint slot, uint bounce, vec3 radiance) {
         layers[slot].emission = radiance;
 }
 
+// All that a path has found once it can find no more direct light: its second vertex is the last that it sees by light that
+// was scattered once. The host does the same where it sums what paths find.
+void recordDirect(uint slot, uint bounce, vec3 radiance) {
+    if (!recordsLayers() || bounce != 1u)
+        return;
+    layers[slot].direct = radiance;
+    layers[slot].isPastDirect = 1u;
+}
+
 // Where the surface is, as the camera sees it.
 void recordPlace(uint slot, uint bounce, Interaction surface, float t) {
     if (!recordsLayers() || bounce > 0u)
@@ -15,6 +24,9 @@ void recordPlace(uint slot, uint bounce, Interaction surface, float t) {
     layers[slot].normal = surface.n;
     layers[slot].guideNormal = surface.n;
     layers[slot].position = surface.p;
+    layers[slot].surface = surface.id;
+    layers[slot].b1 = surface.b.y;
+    layers[slot].b2 = surface.b.z;
     layers[slot].depth =
         sceneHas(kFeaturePanorama) ? t : dot(surface.p - frame.cameraPosition, frame.cameraForward);
 }

@@ -67,6 +67,7 @@ NextRays scatterAt(Hit hit, Ray ray, uint slot, uint bounce, inout Path path) {
             recordEmission(slot, bounce, found);
         }
     }
+    recordDirect(slot, bounce, path.radiance);
     next.isCut = bounce >= frame.maxBounces;
     const bool showsAlbedo = recordsLayers() && bounce == 0u;
     if (next.isCut && !showsAlbedo)

@@ -25,6 +25,8 @@
 #define BINDING_LANE_COUNTERS 20
 #define BINDING_WAITING_PATHS 30
 #define BINDING_PATH_LAYERS 34
+#define BINDING_TRIANGLE_LAYERS 35
+#define BINDING_SAMPLE_SURFACES 36
 
 // Film of one band and what happened to it.
 #define BINDING_FILM 16

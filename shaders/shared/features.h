@@ -52,6 +52,8 @@ SHARED_CONST SceneFeatures kFeatureStartsVary = SHARED_FEATURE(37u);    // camer
 SHARED_CONST SceneFeatures kFeatureEmission = SHARED_FEATURE(38u);      // a surface that emits
 SHARED_CONST SceneFeatures kFeatureSun = SHARED_FEATURE(41u);    // a disc in the environment map
 SHARED_CONST SceneFeatures kFeatureLayers = SHARED_FEATURE(40u); // a render records PathLayers
+SHARED_CONST SceneFeatures kFeatureCrop = SHARED_FEATURE(42u);   // a part of the image is rendered
+SHARED_CONST SceneFeatures kFeatureFilter = SHARED_FEATURE(43u); // of pixels, other than the box of one pixel
 SHARED_CONST SceneFeatures kFeatureBackground = SHARED_FEATURE(39u); // camera rays see it in place of the environment
 
 LAVALIGHT_SHARED_END

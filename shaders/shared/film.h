@@ -19,6 +19,11 @@ SHARED_CONST float kMostSigned = 140737488355328.0f;
 SHARED_CONST uint kSquareWords = 4u;
 SHARED_CONST int kSquareLowestExponent = -64;
 
+// Which values a plane has.
+SHARED_CONST uint kWithoutSign = 0u; // negative ones are counted, and taken for 0
+SHARED_CONST uint kWithSign = 1u;
+SHARED_CONST uint kWeighted = 2u; // those of samples have the weight of the pixel filter, which may be negative
+
 // A plane holds one kind of value that samples have. Its words hold one component after another, each the sum's words,
 // then the square's, lowest first.
 struct FilmPlane {
@@ -44,43 +49,71 @@ SHARED_FUNCTION uint wordsOf(FilmPlane plane) {
 SHARED_CONST uint kColorPlane = 0u;
 SHARED_CONST uint kCoveragePlane = 1u; // 1 where the camera ray met something, 0 elsewhere: with a transparent background
 SHARED_CONST uint kHitsPlane = 2u;     // the same, for planes that are means over hits
-SHARED_CONST uint kAlbedoPlane = 3u;   // directional albedo, as the next three of the first surface
+SHARED_CONST uint kAlbedoPlane = 3u;   // directional albedo, as the next four of the first surface
 SHARED_CONST uint kNormalPlane = 4u;   // in the world, towards the camera
 SHARED_CONST uint kDepthPlane = 5u;    // metres along the camera's view; of a panorama, along the ray
 SHARED_CONST uint kPositionPlane = 6u; // metres from the scene's origin
-SHARED_CONST uint kEmissionPlane = 7u; // radiance that is seen directly: of the first surface, or of the background
-SHARED_CONST uint kGuideAlbedoPlane = 8u; // for denoisers: of the first surface that is no smooth mirror or glass
-SHARED_CONST uint kGuideNormalPlane = 9u;
+SHARED_CONST uint kUvPlane = 7u;       // TEXCOORD_0, as the file has it
+SHARED_CONST uint kEmissionPlane = 8u; // radiance that is seen directly: of the first surface, or of the background
+SHARED_CONST uint kDirectPlane = 9u;   // of the colour, light that was scattered once at most
+SHARED_CONST uint kIndirectPlane = 10u; // of the colour, the rest: its sums are the differences
+SHARED_CONST uint kMotionPlane = 11u;  // pixels to where the surface is in the next frame, right and down
+SHARED_CONST uint kGuideAlbedoPlane = 12u; // for denoisers: of the first surface that is no smooth mirror or glass
+SHARED_CONST uint kGuideNormalPlane = 13u;
 
 // All planes that there are, a row each in the order of their numbers: number, name of the layer, channels in EXR files,
-// components, isSigned, hasSquares, isPerHit. A film has the colour and those that were asked for, in this order;
+// components, sign, hasSquares, isPerHit. A film has the colour and those that were asked for, in this order;
 // shaders/kernels/accumulate.comp says what fills them.
 #define FILM_PLANES(PLANE) \
-    PLANE(kColorPlane, "color", "R,G,B", 3u, 0u, 1u, 0u) \
-    PLANE(kCoveragePlane, "coverage", "A", 1u, 0u, 0u, 0u) \
-    PLANE(kHitsPlane, "hits", "hits.N", 1u, 0u, 0u, 0u) \
-    PLANE(kAlbedoPlane, "albedo", "albedo.R,albedo.G,albedo.B", 3u, 0u, 0u, 0u) \
-    PLANE(kNormalPlane, "normal", "normal.X,normal.Y,normal.Z", 3u, 1u, 0u, 1u) \
-    PLANE(kDepthPlane, "depth", "depth.Z", 1u, 1u, 0u, 1u) \
-    PLANE(kPositionPlane, "position", "position.X,position.Y,position.Z", 3u, 1u, 0u, 1u) \
-    PLANE(kEmissionPlane, "emission", "emission.R,emission.G,emission.B", 3u, 0u, 0u, 0u) \
-    PLANE(kGuideAlbedoPlane, "guide-albedo", "guide-albedo.R,guide-albedo.G,guide-albedo.B", 3u, 0u, 0u, 0u) \
-    PLANE(kGuideNormalPlane, "guide-normal", "guide-normal.X,guide-normal.Y,guide-normal.Z", 3u, 1u, 0u, 0u)
+    PLANE(kColorPlane, "color", "R,G,B", 3u, kWeighted, 1u, 0u) \
+    PLANE(kCoveragePlane, "coverage", "A", 1u, kWeighted, 0u, 0u) \
+    PLANE(kHitsPlane, "hits", "hits.N", 1u, kWithoutSign, 0u, 0u) \
+    PLANE(kAlbedoPlane, "albedo", "albedo.R,albedo.G,albedo.B", 3u, kWithoutSign, 0u, 0u) \
+    PLANE(kNormalPlane, "normal", "normal.X,normal.Y,normal.Z", 3u, kWithSign, 0u, 1u) \
+    PLANE(kDepthPlane, "depth", "depth.Z", 1u, kWithSign, 0u, 1u) \
+    PLANE(kPositionPlane, "position", "position.X,position.Y,position.Z", 3u, kWithSign, 0u, 1u) \
+    PLANE(kUvPlane, "uv", "uv.U,uv.V", 2u, kWithSign, 0u, 1u) \
+    PLANE(kEmissionPlane, "emission", "emission.R,emission.G,emission.B", 3u, kWeighted, 0u, 0u) \
+    PLANE(kDirectPlane, "direct", "direct.R,direct.G,direct.B", 3u, kWeighted, 1u, 0u) \
+    PLANE(kIndirectPlane, "indirect", "indirect.R,indirect.G,indirect.B", 3u, kWeighted, 1u, 0u) \
+    PLANE(kMotionPlane, "motion", "motion.X,motion.Y", 2u, kWithSign, 0u, 1u) \
+    PLANE(kGuideAlbedoPlane, "guide-albedo", "guide-albedo.R,guide-albedo.G,guide-albedo.B", 3u, kWithoutSign, 0u, 0u) \
+    PLANE(kGuideNormalPlane, "guide-normal", "guide-normal.X,guide-normal.Y,guide-normal.Z", 3u, kWithSign, 0u, 0u)
 
-#define FILM_PLANE_SHAPE(number, name, channels, components, isSigned, hasSquares, isPerHit) \
-    {components, isSigned, hasSquares, isPerHit},
-#define FILM_PLANE_COUNT(number, name, channels, components, isSigned, hasSquares, isPerHit) + 1u
+// A film's planes are asked for by a word: bit i for row i, and this bit where weighted planes have a sign.
+SHARED_CONST uint kNegativeWeights = 0x80000000u;
+
+// Layers that are no means and so no planes: the host counts which surfaces the samples of a pixel met.
+SHARED_CONST uint kObjectIds = 0x40000000u;
+SHARED_CONST uint kMaterialIds = 0x20000000u;
+SHARED_CONST uint kCryptomatte = 0x10000000u; // both, as files that compositing programs read
+
+// Where accumulate.comp puts the surface of each sample for the host: that of a sample that is in no plane.
+SHARED_CONST uint kDroppedSample = 0xfffffffeu;
+
+#define FILM_PLANE_SHAPE(number, name, channels, components, sign, hasSquares, isPerHit) \
+    {components, sign, hasSquares, isPerHit},
+#define FILM_PLANE_COUNT(number, name, channels, components, sign, hasSquares, isPerHit) + 1u
+// The rows, with their signs in the place of isSigned.
 SHARED_CONST FilmPlane kFilmPlanes[] = {FILM_PLANES(FILM_PLANE_SHAPE)};
 SHARED_CONST uint kFilmPlaneCount = 0u FILM_PLANES(FILM_PLANE_COUNT);
+
+// The plane of a row, as a film has it.
+SHARED_FUNCTION FilmPlane shapeOf(uint plane, uint asked) {
+    FilmPlane shape = kFilmPlanes[plane];
+    if (shape.isSigned == kWeighted)
+        shape.isSigned = (asked & kNegativeWeights) != 0u ? 1u : 0u;
+    return shape;
+}
 
 // Word planes of a band's film, each as long as the band has pixels: its planes, and last the number of samples.
 //
 //   R.sum[3] R.square[4]  G.sum[3] G.square[4]  B.sum[3] B.square[4]  ...  count
 //
-// `asked`: a film's planes, bit i for row i. The sum is written out, row by row, since compilers see through no loop here.
+// The sum is written out, row by row, since compilers see through no loop here.
 SHARED_FUNCTION uint firstWordOf(uint plane, uint asked) {
-#define FILM_PLANE_WORDS(number, name, channels, components, isSigned, hasSquares, isPerHit) \
-    + (number < plane && (asked >> number & 1u) != 0u ? wordsOf(kFilmPlanes[number]) : 0u)
+#define FILM_PLANE_WORDS(number, name, channels, components, sign, hasSquares, isPerHit) \
+    + (number < plane && (asked >> number & 1u) != 0u ? wordsOf(shapeOf(number, asked)) : 0u)
     return 0u FILM_PLANES(FILM_PLANE_WORDS);
 }
 

@@ -46,8 +46,26 @@ struct FrameParameters {
     vec3 sunDirection;
     float sunSize; // 1 - the cosine of its angular radius
     vec3 sunRadiance;
+    uint cropStart;  // first pixel of the image that is rendered
+    uint cropWidth;  // pixels of a row that are rendered, all imageWidth unless kFeatureCrop is wanted
+    uint hasFilter; // kFeatureFilter is wanted
+    float filterPositive; // share of the pixel filter along an axis that has no negative sign
+    float filterScale;    // weight of a sample, without its sign
+    // Where the pixel filter puts samples (lib/sampling/pixel_filter.glsl): offsets from the middle, in pixels.
+    vec4 filterNodes[33];
+    // The camera of the next frame, as above, for kMotionPlane.
+    vec3 nextPosition;
+    uint unused0;
+    vec3 nextRight;
     uint unused1;
+    vec3 nextUp;
+    uint unused2;
+    vec3 nextForward;
+    uint unused3;
 };
+
+// Intervals of filterNodes, whose last node ends the last of them.
+SHARED_CONST uint kFilterIntervals = 128u;
 
 // Specialisation constants: the estimator settings that pick code (lib/estimator.glsl).
 #define CONSTANT_SAMPLER 0

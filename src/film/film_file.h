@@ -5,7 +5,10 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
+#include <span>
 
+#include "film/film_windows.h"
 #include "film/raw_film.h"
 #include "film/sample_ranges.h"
 #include "image/exr.h"
@@ -16,7 +19,8 @@ struct FilmFile {
     RawFilm film;
     SampleRanges ranges; // samples that it is to hold, or holds
     FilmProgress progress;
-    Metadata metadata; // entries of exrMetadata(), and kSettingsLedger
+    Metadata metadata;              // entries of exrMetadata(), and kSettingsLedger
+    std::optional<FilmPart> part{}; // none: the film is of the whole image
 
     [[nodiscard]] bool isComplete() const { return progress == FilmProgress{countOf(ranges), 0, 0}; }
 };
@@ -29,8 +33,9 @@ inline constexpr const char* kSettingsLedger = "film:settings-ledger";
 //   raw.R.square.0 1 2 3  sum of their L^2, the lowest bit worth 2^-64
 // and so for G and B, and for the channels of each further layer; sums of layers with negative values are of
 // four words, in two's complement. The header names the film's layout; without it, colour is all there is. A
-// hash of the film and the header makes damage known. Throws Error.
-void writeFilmFile(const std::filesystem::path& path, const FilmFile& file);
+// hash of the film and the header makes damage known. `more`: further layers, which readFilmFile ignores.
+// Throws Error.
+void writeFilmFile(const std::filesystem::path& path, const FilmFile& file, std::span<const Layer> more = {});
 
 // Throws Error for whatever is no such file, or was damaged.
 [[nodiscard]] FilmFile readFilmFile(const std::filesystem::path& path);

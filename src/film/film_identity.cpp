@@ -16,9 +16,9 @@ constexpr std::string_view kOption = "option:";
 constexpr std::string_view kContent = "content:";
 constexpr std::string_view kNoValue = "none";
 
-// Options that choose samples, or say when to stop.
-constexpr std::array<std::string_view, 5> kFreeOptions{"spp", "first-sample", "time", "target-error",
-                                                       "wave-size"};
+// Options that choose samples or pixels, or say when to stop.
+constexpr std::array<std::string_view, 6> kFreeOptions{"spp",          "first-sample", "time",
+                                                       "target-error", "wave-size",    "crop"};
 // Options that say where something comes from: its content is what counts.
 constexpr std::array<std::string_view, 14> kSources{"env",      "look-from", "look-at",  "up",      "fov",
                                                     "aperture", "focus",     "panorama", "no-clip", "shaders",

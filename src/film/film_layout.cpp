@@ -18,6 +18,7 @@ constexpr std::string_view kBetweenPlanes = "; ";
 constexpr std::string_view kAfterName = ": ";
 constexpr std::string_view kSquares = " squares";
 constexpr std::string_view kPerHit = " per-hit";
+constexpr std::string_view kIds = ": ids";
 constexpr size_t kMostComponents = 3;
 constexpr size_t kMostPlanes = 32; // a film's planes are asked for by the bits of one word
 
@@ -39,7 +40,7 @@ std::vector<std::string> channelsOf(std::string_view list) {
 
 // Whether the rows stand in the order of their numbers.
 constexpr bool areInOrder() {
-#define PLANE_NUMBER(number, name, channels, components, isSigned, hasSquares, isPerHit) number,
+#define PLANE_NUMBER(number, name, channels, components, sign, hasSquares, isPerHit) number,
     constexpr std::array numbers{FILM_PLANES(PLANE_NUMBER)};
 #undef PLANE_NUMBER
     for (size_t i = 0; i < numbers.size(); ++i)
@@ -51,19 +52,33 @@ static_assert(areInOrder());
 
 // Whether the rows of planes that the rest of the house knows have the names that it knows.
 constexpr bool haveKnownNames() {
-#define PLANE_NAME(number, name, channels, components, isSigned, hasSquares, isPerHit) std::string_view(name),
+#define PLANE_NAME(number, name, channels, components, sign, hasSquares, isPerHit) std::string_view(name),
     constexpr std::array names{FILM_PLANES(PLANE_NAME)};
 #undef PLANE_NAME
     return names[kColorPlane] == kColorLayer && names[kCoveragePlane] == kCoverageLayer;
 }
 static_assert(haveKnownNames());
 
-const std::vector<LayerPlane>& allPlanes() {
-#define LAYER_PLANE(number, name, channels, components, isSigned, hasSquares, isPerHit)                      \
-    {name, channelsOf(channels), {components, isSigned, hasSquares, isPerHit}},
-    static const std::vector<LayerPlane> planes{FILM_PLANES(LAYER_PLANE)};
-#undef LAYER_PLANE
-    return planes;
+// What a row of FILM_PLANES is called.
+struct Row {
+    std::string name;
+    std::vector<std::string> channels;
+};
+
+const std::vector<Row>& allRows() {
+#define LAYER_ROW(number, name, channels, components, sign, hasSquares, isPerHit)                            \
+    {name, channelsOf(channels)},
+    static const std::vector<Row> rows{FILM_PLANES(LAYER_ROW)};
+#undef LAYER_ROW
+    return rows;
+}
+
+bool isOfRow(const LayerPlane& plane, uint32_t row) {
+    return plane.name == allRows().at(row).name && plane.channels == allRows()[row].channels;
+}
+
+bool isIdLayer(std::string_view name) {
+    return name == layerNameOf(kObjectIds) || name == layerNameOf(kMaterialIds);
 }
 
 bool isName(std::string_view text) {
@@ -107,7 +122,7 @@ bool areLayers(const std::vector<LayerPlane>& planes) {
         channels.insert(plane.channels.begin(), plane.channels.end());
         components += plane.channels.size();
     }
-    return !planes.empty() && planes.size() <= kMostPlanes && planes.front() == allPlanes()[kColorPlane] &&
+    return !planes.empty() && planes.size() <= kMostPlanes && isOfRow(planes.front(), kColorPlane) &&
            names.size() == planes.size() && channels.size() == components;
 }
 
@@ -118,7 +133,8 @@ bool operator==(const LayerPlane& a, const LayerPlane& b) {
            a.isSigned() == b.isSigned() && a.hasSquares() == b.hasSquares() && a.isPerHit() == b.isPerHit();
 }
 
-FilmLayout::FilmLayout(std::vector<LayerPlane> planes) : planes_(std::move(planes)) {
+FilmLayout::FilmLayout(std::vector<LayerPlane> planes, std::vector<std::string> idLayers)
+    : planes_(std::move(planes)), idLayers_(std::move(idLayers)) {
     assert(areLayers(planes_));
     firstWords_.push_back(0);
     for (const LayerPlane& plane : planes_) {
@@ -128,7 +144,8 @@ FilmLayout::FilmLayout(std::vector<LayerPlane> planes) : planes_(std::move(plane
 }
 
 std::optional<size_t> FilmLayout::find(uint32_t row) const {
-    const auto found = std::find(planes_.begin(), planes_.end(), allPlanes().at(row));
+    const auto found = std::find_if(planes_.begin(), planes_.end(),
+                                    [&](const LayerPlane& plane) { return isOfRow(plane, row); });
     return found == planes_.end() ? std::nullopt : std::optional<size_t>(found - planes_.begin());
 }
 
@@ -150,15 +167,34 @@ std::vector<FilmNumber> FilmLayout::numbers() const {
 }
 
 std::string planeName(uint32_t row) {
-    return allPlanes().at(row).name;
+    return allRows().at(row).name;
+}
+
+std::string layerNameOf(uint32_t bit) {
+    return bit == kObjectIds ? "object-id" : bit == kMaterialIds ? "material-id" : "cryptomatte";
+}
+
+std::vector<std::string> layerNames(uint32_t asked) {
+    std::vector<std::string> names;
+    for (uint32_t row = 0; row < kFilmPlaneCount; ++row)
+        if ((asked >> row & 1u) != 0)
+            names.push_back(planeName(row));
+    for (const uint32_t bit : {kObjectIds, kMaterialIds, kCryptomatte})
+        if ((asked & bit) != 0)
+            names.push_back(layerNameOf(bit));
+    return names;
 }
 
 FilmLayout layoutOf(uint32_t asked) {
     std::vector<LayerPlane> planes;
     for (uint32_t i = 0; i < kFilmPlaneCount; ++i)
         if ((asked >> i & 1u) != 0)
-            planes.push_back(allPlanes()[i]);
-    return FilmLayout(std::move(planes));
+            planes.push_back({allRows()[i].name, allRows()[i].channels, shapeOf(i, asked)});
+    std::vector<std::string> ids;
+    for (const uint32_t bit : {kObjectIds, kMaterialIds})
+        if ((asked & bit) != 0)
+            ids.push_back(layerNameOf(bit));
+    return FilmLayout(std::move(planes), std::move(ids));
 }
 
 const FilmLayout& colorLayout() {
@@ -170,18 +206,30 @@ std::string textOf(const FilmLayout& layout) {
     std::string text;
     for (const LayerPlane& plane : layout.planes())
         text += fmt::format("{}{}", text.empty() ? "" : kBetweenPlanes, planeText(plane));
+    for (const std::string& name : layout.idLayers())
+        text += fmt::format("{}{}{}", kBetweenPlanes, name, kIds);
     return text;
 }
 
 std::optional<FilmLayout> parseFilmLayout(std::string_view text) {
     std::vector<LayerPlane> planes;
+    std::vector<std::string> ids;
     for (const std::string_view part : split(text, kBetweenPlanes)) {
+        if (part.ends_with(kIds)) {
+            ids.emplace_back(part.substr(0, part.size() - kIds.size()));
+            continue;
+        }
+        if (!ids.empty())
+            return std::nullopt;
         const std::optional<LayerPlane> plane = parsePlane(part);
         if (!plane)
             return std::nullopt;
         planes.push_back(*plane);
     }
-    return areLayers(planes) ? std::optional(FilmLayout(std::move(planes))) : std::nullopt;
+    const bool areIds =
+        ids.empty() || ids == layoutOf(~0u).idLayers() || (ids.size() == 1 && isIdLayer(ids.front()));
+    return areIds && areLayers(planes) ? std::optional(FilmLayout(std::move(planes), std::move(ids)))
+                                       : std::nullopt;
 }
 
 } // namespace lavalight

@@ -36,9 +36,11 @@ struct FilmNumber {
 class FilmLayout {
   public:
     // The first plane is the colour; names differ.
-    explicit FilmLayout(std::vector<LayerPlane> planes);
+    explicit FilmLayout(std::vector<LayerPlane> planes, std::vector<std::string> idLayers = {});
 
     [[nodiscard]] std::span<const LayerPlane> planes() const { return planes_; }
+    // Names of the layers for which ids are counted.
+    [[nodiscard]] const std::vector<std::string>& idLayers() const { return idLayers_; }
     // Where the plane of a row of FILM_PLANES is among these, if it is.
     [[nodiscard]] std::optional<size_t> find(uint32_t row) const;
     // The index of the first word of a plane, of the word that counts samples, and the number of all words.
@@ -48,17 +50,24 @@ class FilmLayout {
     // All numbers but the count, in the order of their words.
     [[nodiscard]] std::vector<FilmNumber> numbers() const;
 
-    [[nodiscard]] bool operator==(const FilmLayout& other) const { return planes_ == other.planes_; }
+    [[nodiscard]] bool operator==(const FilmLayout& other) const {
+        return planes_ == other.planes_ && idLayers_ == other.idLayers_;
+    }
 
   private:
     std::vector<LayerPlane> planes_;
+    std::vector<std::string> idLayers_;
     std::vector<uint32_t> firstWords_; // where each plane begins, then the word of sample counts
 };
 
 // The name of the layer of a row of FILM_PLANES.
 [[nodiscard]] std::string planeName(uint32_t row);
+// The name of the layer of kObjectIds, kMaterialIds or kCryptomatte.
+[[nodiscard]] std::string layerNameOf(uint32_t bit);
+// Names of all layers that a word asks for.
+[[nodiscard]] std::vector<std::string> layerNames(uint32_t asked);
 
-// Rows of FILM_PLANES: bit i for row i. The colour must be among them.
+// Rows of FILM_PLANES, bit i for row i, kNegativeWeights, and layers of ids. The colour must be among them.
 [[nodiscard]] FilmLayout layoutOf(uint32_t asked);
 // The film of a render that no further layer was asked of.
 [[nodiscard]] const FilmLayout& colorLayout();

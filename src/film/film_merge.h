@@ -13,10 +13,11 @@ struct NamedFilm {
     FilmFile file;
 };
 
-// Adds the samples of `part`: film, tallies and header become those of one render of all samples, but for the
-// seconds, which add up. Ranges may leave gaps between them: no estimator asks which samples there are.
-// Throws Error, naming what is in the way, where the two are of different images, have samples in common, or
-// lack some of those that they are to hold.
+// Adds the samples of `part`, or puts it beside the others where it is another window of the image: film,
+// tallies and header become those of one render of all samples, but for the seconds, which add up. Ranges may
+// leave gaps between them: no estimator asks which samples there are. Throws Error, naming what is in the
+// way, where the two are of different images, have samples in common, or lack some of those that they are to
+// hold.
 void join(NamedFilm& sum, const NamedFilm& part);
 
 } // namespace lavalight

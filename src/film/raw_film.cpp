@@ -79,6 +79,13 @@ uint64_t addNumbers(RawFilm& sum, const RawFilm& more, const FilmNumber& number)
 
 } // namespace
 
+std::vector<IdLayer> emptyIds(const FilmLayout& layout, size_t pixels) {
+    std::vector<IdLayer> layers;
+    for (const std::string& name : layout.idLayers())
+        layers.push_back({name, IdCounts(pixels)});
+    return layers;
+}
+
 uint64_t RawFilm::samples() const {
     return totalOf(std::span(words).subspan(layout.countWord() * pixels()));
 }
@@ -113,6 +120,10 @@ void add(RawFilm& sum, const RawFilm& more) {
         sum.tallies[i] += more.tallies[i];
     sum.tallies[kTallyCrowdedSolid] = solid;  // the kernels keep the greatest
     sum.tallies[kTallySaturated] = saturated; // the two films may share saturated sums
+    for (size_t i = 0; i < sum.ids.size(); ++i)
+        for (size_t pixel = 0; pixel < sum.pixels(); ++pixel)
+            for (const IdCount& counted : more.ids[i].counts.ranked(pixel))
+                sum.ids[i].counts.add(pixel, counted.id, counted.count);
 }
 
 Rendering emptyRendering(const FilmLayout& layout, uint32_t width, uint32_t height) {
@@ -135,6 +146,8 @@ void resolvePixels(std::span<const uint32_t> words, const FilmLayout& layout, si
     for (size_t plane = 0; plane < layout.planes().size(); ++plane) {
         const FilmPlane& shape = layout.planes()[plane].shape;
         Layer& layer = rendering.layers[plane];
+        // Negative lobes of a pixel filter lead out of it.
+        const bool isShare = layer.name == kCoverageLayer;
         const std::optional<size_t> hits =
             layout.planes()[plane].isPerHit() ? layout.find(kHitsPlane) : std::nullopt;
         for (size_t pixel = 0; pixel < sums.pixels(); ++pixel)
@@ -143,7 +156,8 @@ void resolvePixels(std::span<const uint32_t> words, const FilmLayout& layout, si
                 const double counted = hits ? sums.sum(pixel, layout.firstWord(*hits)) : sums.count(pixel);
                 const PixelEstimate e = sums.component(pixel, word, shape, counted);
                 const auto at = static_cast<glm::length_t>(c);
-                layer.mean.pixels[firstPixel + pixel][at] = static_cast<float>(e.mean);
+                layer.mean.pixels[firstPixel + pixel][at] =
+                    static_cast<float>(isShare ? std::clamp(e.mean, 0.0, 1.0) : e.mean);
                 if (layer.variance)
                     layer.variance->pixels[firstPixel + pixel][at] = static_cast<float>(e.varianceOfMean);
             }

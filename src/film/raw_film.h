@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "film/film_layout.h"
+#include "film/id_counts.h"
 #include "image/rendering.h"
 #include "shared/film.h"
 #include "shared/interior_list.h"
@@ -36,6 +37,14 @@ using RawTallies = std::array<uint64_t, kTallyCount>;
 
 [[nodiscard]] FilmTallies readable(const RawTallies& tallies);
 
+// What a layer of ids is made of.
+struct IdLayer {
+    std::string name;
+    IdCounts counts;
+};
+// Empty counts for each of the layout's layers of ids.
+[[nodiscard]] std::vector<IdLayer> emptyIds(const FilmLayout& layout, size_t pixels);
+
 // A whole film: equal samples leave equal words, however they were taken.
 struct RawFilm {
     uint32_t width = 0;
@@ -43,6 +52,7 @@ struct RawFilm {
     std::vector<uint32_t> words; // layout.words() word planes in their order, of all pixels each
     RawTallies tallies{};
     FilmLayout layout = colorLayout();
+    std::vector<IdLayer> ids{}; // one for each of layout.idLayers()
 
     [[nodiscard]] size_t pixels() const { return size_t{width} * height; }
     // Samples over all pixels.

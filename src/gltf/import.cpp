@@ -123,6 +123,7 @@ void readPlaces(const GltfDocument& document, const ImportOptions& options, Node
     }
     noteCoarse(document, geometry.runs, scene, notes);
     scene.meshes = std::move(geometry.meshes);
+    scene.objects = std::move(geometry.objects);
     for (PlacedCamera& placed : cameras) {
         placed.camera.position = glm::vec3(placed.position - scene.origin);
         scene.cameras.push_back(std::move(placed.camera));

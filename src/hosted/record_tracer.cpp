@@ -19,6 +19,15 @@ glm::vec3 xyz(const glm::uvec4& words) {
     return glm::uintBitsToFloat(glm::uvec3(words));
 }
 
+// After so many vertices a path has found all direct light: recordDirect() of the shaders, in which radiance
+// is not summed.
+constexpr uint32_t kVerticesOfDirectLight = 2;
+
+void keepDirect(PathLayers& layers, const glm::vec3& radiance) {
+    layers.direct = radiance;
+    layers.isPastDirect = 1;
+}
+
 } // namespace
 
 const glm::uvec4& RecordBuffers::at(uint32_t plane, uint32_t record) const {
@@ -96,6 +105,8 @@ void RecordTracer::trace(const RecordBuffers& buffers, uint32_t bounce, Chunk& c
         regions_[i] = kEnded;
         if ((flags & kRecordEmits) != 0)
             buffers.radiance(i) += xyz(buffers.at(kPlaneEmitted, i));
+        if (bounce == kVerticesOfDirectLight && !buffers.layers.empty())
+            keepDirect(buffers.layers[buffers.slot(i)], buffers.radiance(i));
     }
     for (const uint32_t i : std::span(withShadowRay).first(chunk.shadowRays))
         connect(buffers, bounce, rays, i);

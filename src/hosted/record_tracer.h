@@ -10,6 +10,7 @@
 
 #include "hosted/host_rays.h"
 #include "shared/frame.h"
+#include "shared/path_layers.h"
 #include "shared/records.h"
 #include "shared/wavefront.h"
 
@@ -20,6 +21,7 @@ struct RecordBuffers {
     std::span<const glm::uvec4> written; // kPlanesOut planes
     std::span<glm::uvec4> read;          // kPlanesIn planes
     std::span<Path> paths;               // by slot; only their radiance is used
+    std::span<PathLayers> layers;        // by slot; empty: none are recorded
     size_t stride = 0;                   // records from one plane to the next
 
     // What kernels wrote of a record.

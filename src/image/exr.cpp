@@ -44,49 +44,64 @@ void useAllCores() {
 
 // --- writing ---
 
-// OpenEXR only reads from the slices of a file that it writes, but asks for pointers to mutable data.
-template <typename T>
-Imf::Slice outputSlice(Imf::PixelType type, const T* first, size_t stride, uint32_t width) {
-    char* base = const_cast<char*>(reinterpret_cast<const char*>(first));
-    return {type, base, stride, stride * width};
+void addChannel(Imf::Header& header, Imf::FrameBuffer& buffer, const std::string& name, Imf::PixelType type,
+                const void* first, size_t stride) {
+    const Imath::Box2i& window = header.dataWindow();
+    const size_t width = static_cast<size_t>(window.size().x) + 1;
+    header.channels().insert(name, Imf::Channel(type));
+    buffer.insert(name, Imf::Slice::Make(type, first, window, stride, stride * width));
 }
 
 void addImage(Imf::Header& header, Imf::FrameBuffer& buffer, const ChannelList& names, const Image& image) {
-    for (size_t c = 0; c < names.size(); ++c) {
-        header.channels().insert(names[c], Imf::Channel(Imf::FLOAT));
-        buffer.insert(names[c], outputSlice(Imf::FLOAT, &image.pixels.front()[static_cast<glm::length_t>(c)],
-                                            sizeof(glm::vec3), image.width));
-    }
+    for (size_t c = 0; c < names.size(); ++c)
+        addChannel(header, buffer, names[c], Imf::FLOAT, &image.pixels.front()[static_cast<glm::length_t>(c)],
+                   sizeof(glm::vec3));
+}
+
+// Pixels from `first` on.
+Imath::Box2i windowOf(glm::uvec2 first, glm::uvec2 size) {
+    const glm::ivec2 least(first);
+    const glm::ivec2 most = least + glm::ivec2(size) - 1;
+    return {{least.x, least.y}, {most.x, most.y}};
+}
+
+Imath::Box2i dataWindow(const Rendering& rendering) {
+    const Image& image = rendering.radiance();
+    return windowOf(rendering.place ? rendering.place->first : glm::uvec2(0), {image.width, image.height});
+}
+
+Imath::Box2i displayWindow(const Rendering& rendering) {
+    return rendering.place ? windowOf(glm::uvec2(0), rendering.place->whole) : dataWindow(rendering);
 }
 
 void writeChannels(const std::filesystem::path& part, const Rendering& rendering, const Metadata& metadata,
-                   std::span<const UintChannel> more) {
-    const Image& image = rendering.radiance();
-    const auto height = static_cast<int>(image.height);
-    Imf::Header header(static_cast<int>(image.width), height);
+                   const ExrContents& more) {
+    Imf::Header header(displayWindow(rendering), dataWindow(rendering));
     header.compression() = Imf::ZIP_COMPRESSION;
     Imf::addChromaticities(header, Imf::Chromaticities()); // the default is Rec. 709
     for (const auto& [key, value] : metadata)
         header.insert(std::string(kPrefix) + key, Imf::StringAttribute(value));
+    for (const auto& [name, value] : more.attributes)
+        header.insert(name, Imf::StringAttribute(value));
     Imf::FrameBuffer buffer;
     for (const Layer& layer : rendering.layers) {
         addImage(header, buffer, layer.channels, layer.mean);
         if (layer.variance)
             addImage(header, buffer, varianceChannels(layer.channels), *layer.variance);
     }
-    const auto addCounts = [&](const char* name, std::span<const uint32_t> values) {
-        header.channels().insert(name, Imf::Channel(Imf::UINT));
-        buffer.insert(name, outputSlice(Imf::UINT, values.data(), sizeof(uint32_t), image.width));
-    };
-    addCounts(kSampleChannel, rendering.sampleCounts);
-    for (const UintChannel& channel : more)
-        addCounts(channel.name.c_str(), channel.values);
+    addChannel(header, buffer, kSampleChannel, Imf::UINT, rendering.sampleCounts.data(), sizeof(uint32_t));
+    for (const UintChannel& channel : more.words)
+        addChannel(header, buffer, channel.name, Imf::UINT, channel.values.data(), sizeof(uint32_t));
+    for (const OwnedChannel<uint32_t>& channel : more.uints)
+        addChannel(header, buffer, channel.name, Imf::UINT, channel.values.data(), sizeof(uint32_t));
+    for (const OwnedChannel<float>& channel : more.floats)
+        addChannel(header, buffer, channel.name, Imf::FLOAT, channel.values.data(), sizeof(float));
     std::ofstream stream(part, std::ios::binary);
     {
         Imf::StdOFStream out(stream, part.c_str());
         Imf::OutputFile file(out, header);
         file.setFrameBuffer(buffer);
-        file.writePixels(height);
+        file.writePixels(static_cast<int>(rendering.radiance().height));
     } // writes where the lines are, and swallows what goes wrong with that: the stream knows
     stream.close();
     if (!stream)
@@ -238,6 +253,17 @@ Image readSphere(Imf::InputFile& file, uint64_t mostPixels) {
     return aroundSphere(std::move(layer.mean), file.header(), mostPixels);
 }
 
+// Display windows may begin anywhere, and data windows leave them.
+std::optional<ImagePlace> placeIn(const Imf::Header& header) {
+    const Imath::Box2i& whole = header.displayWindow();
+    const Imath::Box2i& data = header.dataWindow();
+    if (whole == data || !whole.intersects(data.min) || !whole.intersects(data.max))
+        return std::nullopt;
+    const Imath::V2i first = data.min - whole.min;
+    const Imath::V2i size = whole.size() + Imath::V2i(1);
+    return ImagePlace{glm::uvec2(first.x, first.y), glm::uvec2(size.x, size.y)};
+}
+
 ExrFile readLayers(Imf::InputFile& file) {
     ExrFile result;
     result.layers = layersIn(channelsOf(file));
@@ -255,6 +281,7 @@ ExrFile readLayers(Imf::InputFile& file) {
     reader.read();
     spreadGrey(result.layers.front());
     result.metadata = readMetadata(file.header());
+    result.place = placeIn(file.header());
     return result;
 }
 
@@ -310,7 +337,7 @@ auto readWith(const std::filesystem::path& path, const Read& read) {
 } // namespace
 
 void writeExr(const std::filesystem::path& path, const Rendering& rendering, const Metadata& metadata,
-              std::span<const UintChannel> more) {
+              const ExrContents& more) {
     [[maybe_unused]] const Image& image = rendering.radiance();
     assert(image.width > 0 && image.height > 0 && image.width <= kMaxImageSide &&
            image.height <= kMaxImageSide);

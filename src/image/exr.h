@@ -25,18 +25,35 @@ struct UintChannel {
     std::span<const uint32_t> values;
 };
 
+// A channel with values of its own, row by row from the top.
+template <typename Value>
+struct OwnedChannel {
+    std::string name;
+    std::vector<Value> values;
+};
+
+// What an EXR file holds beside a rendering.
+struct ExrContents {
+    std::vector<UintChannel> words;
+    std::vector<OwnedChannel<uint32_t>> uints;
+    std::vector<OwnedChannel<float>> floats;
+    Metadata attributes; // by their full names
+};
+
 inline constexpr const char* kSampleChannel = "samples";
 
 // Writes a scan-line file with ZIP compression, all or nothing (base/file.h). Channels:
 //   R G B                              32-bit float, linear Rec. 709
 //   variance.R variance.G variance.B   32-bit float, the variance of each pixel's mean
 //   samples                            32-bit unsigned, how many samples each pixel rests on
-// and so, by their own names, those of further layers, each with its variance if it has one; and `more`.
+// and so, by their own names, those of further layers, each with its variance if it has one; and `more`. The
+// display window is the whole that the rendering is a part of, the data window its own pixels.
 // Metadata become string attributes named "lavalight:<key>". Equal input gives equal bytes. Throws Error.
 void writeExr(const std::filesystem::path& path, const Rendering& rendering, const Metadata& metadata,
-              std::span<const UintChannel> more = {});
+              const ExrContents& more = {});
 
-// The data window, wherever it lies. Without variance and sample counts where the file lacks them.
+// The data window, wherever it lies; its place if it is another than the display window and within it.
+// Without variance and sample counts where the file lacks them.
 struct ExrFile : Rendering {
     Metadata metadata; // string attributes by name, "lavalight:" taken off, in alphabetical order of the full
                        // names
@@ -45,9 +62,9 @@ struct ExrFile : Rendering {
 // Reads the first part of any scan-line or tiled file with R, G and B, or with luminance Y alone, in half,
 // float or unsigned. Further layers are one to three float or half channels that share a name up to its last
 // dot, as R, G, B or in alphabetical order, beside its A as a layer of that name, or one channel without a
-// dot; other channels are ignored. Colours are taken as linear Rec. 709; a file that says otherwise gets a
-// warning. Throws Error for whatever is no such file: missing, damaged, incomplete, larger than kMaxImageSide
-// a side or than memory, without colour.
+// dot; other channels, and cryptomattes, are ignored. Colours are taken as linear Rec. 709; a file that says
+// otherwise gets a warning. Throws Error for whatever is no such file: missing, damaged, incomplete, larger
+// than kMaxImageSide a side or than memory, without colour.
 [[nodiscard]] ExrFile readExr(const std::filesystem::path& path);
 
 // Reads the radiance alone, as an equirectangular map of all directions (image/exr_sphere.h). Throws Error

@@ -1,6 +1,7 @@
 #include "image/exr_layers.h"
 
 #include <algorithm>
+#include <cctype>
 #include <map>
 #include <string_view>
 
@@ -55,11 +56,20 @@ bool isAlpha(std::string_view channel) {
     return channel == "A" || channel.ends_with(".A");
 }
 
+// Cryptomattes hold hashes of names: "CryptoObject00.R".
+bool isMatte(std::string_view channel) {
+    const std::string_view layer = channel.substr(0, channel.rfind('.'));
+    return layer.size() > 2 && layer.find("Crypto") != std::string_view::npos &&
+           std::isdigit(static_cast<unsigned char>(layer[layer.size() - 1])) != 0 &&
+           std::isdigit(static_cast<unsigned char>(layer[layer.size() - 2])) != 0;
+}
+
 bool mayBeLayer(const ExrChannel& channel) {
     const bool isColor =
         channel.name == "R" || channel.name == "G" || channel.name == "B" || channel.name == kLuminance;
     const bool isNumber = channel.isFloat || isAlpha(channel.name); // whole numbers are 0 or 1
-    return !isColor && isNumber && channel.hasAllPixels && !channel.name.starts_with(kVariance);
+    return !isColor && isNumber && channel.hasAllPixels && !channel.name.starts_with(kVariance) &&
+           !isMatte(channel.name);
 }
 
 // The opacity of a layer of colour is a layer of its own.

@@ -51,6 +51,15 @@ constexpr size_t kHeaderBytes = 8 + 25;
 
 } // namespace
 
+void requirePngFits(uint32_t width, uint32_t height, bool hasAlpha) {
+    const int channels = hasAlpha ? 4 : 3;
+    if (int64_t{height} * (int64_t{width} * channels + 1) > kMostBytes)
+        throw Error(
+            fmt::format("cannot write a PNG of {} x {} pixels with alpha: it is too large; try an EXR, or a "
+                        "--background without alpha",
+                        width, height));
+}
+
 std::string encodePng(uint32_t width, uint32_t height, std::span<const uint32_t> pixels,
                       const PngTexts& texts) {
     assert(width > 0 && height > 0 && width <= kMaxImageSide && height <= kMaxImageSide);
@@ -58,9 +67,7 @@ std::string encodePng(uint32_t width, uint32_t height, std::span<const uint32_t>
     const bool isOpaque =
         std::all_of(pixels.begin(), pixels.end(), [](uint32_t pixel) { return pixel >> 24 == 0xffu; });
     const int channels = isOpaque ? 3 : 4;
-    if (int64_t{height} * (int64_t{width} * channels + 1) > kMostBytes)
-        throw Error(
-            fmt::format("{} x {} pixels with alpha are more than PNG files are written of", width, height));
+    requirePngFits(width, height, !isOpaque);
     const std::vector<uint8_t> bytes = bytesOf(pixels, channels);
     const auto columns = static_cast<int>(width);
     const auto rows = static_cast<int>(height);

@@ -16,6 +16,13 @@
 
 namespace lavalight {
 
+// Where an image is in a whole that it is a part of.
+struct ImagePlace {
+    glm::uvec2 first{0}; // of the whole's pixels, from the top left corner, the image's first
+    glm::uvec2 whole{0}; // width and height
+    bool operator==(const ImagePlace&) const = default;
+};
+
 // Means of one kind over the samples of each pixel.
 struct Layer {
     std::string name;
@@ -41,6 +48,7 @@ inline constexpr const char* kCoverageLayer = "coverage";
 struct Rendering {
     std::vector<Layer> layers;          // layers of one size and with different names; the first is radiance
     std::vector<uint32_t> sampleCounts; // row by row from the top; empty: not known
+    std::optional<ImagePlace> place;    // none: the image is whole
 
     Rendering() = default;
     Rendering(Image radiance, std::optional<Image> variance, std::vector<uint32_t> counts)

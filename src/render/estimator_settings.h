@@ -27,6 +27,8 @@ enum class TextureFilter : uint32_t {
     stochastic = kTextureFilterStochastic
 };
 
+enum class PixelFilter : uint32_t { box, tent, gaussian, blackmanHarris, mitchell };
+
 // Two renders of one scene with equal EstimatorSettings have equal bits.
 struct EstimatorSettings {
     Sampler sampler = Sampler::sobol;
@@ -46,6 +48,8 @@ struct EstimatorSettings {
     uint32_t maxBounces = 64;     // scattering vertices; 0 shows emission only
     float clampIndirect =
         std::numeric_limits<float>::infinity(); // biased: largest channel of an indirect contribution
+    PixelFilter pixelFilter = PixelFilter::box;
+    float filterRadius = std::numeric_limits<float>::infinity(); // pixels; infinite: the filter's own
     uint32_t seed = 0;
     bool operator==(const EstimatorSettings&) const = default;
 };

@@ -47,7 +47,13 @@ Film::Film(gpu::Device& device, uint32_t width, uint32_t height, uint32_t bandRo
     clear();
 }
 
+void Film::countIds(size_t pixel, std::span<const uint32_t> idsOfLayers) {
+    for (size_t i = 0; i < ids_.size(); ++i)
+        ids_[i].counts.add(pixel, idsOfLayers[i]);
+}
+
 void Film::clear() {
+    ids_ = emptyIds(layout_, size_t{width_} * height_);
     gpu::Commands commands(*device_);
     commands.begin();
     for (const FilmBand& band : bands_)
@@ -76,8 +82,8 @@ RawTallies Film::rawTallies() const {
 }
 
 RawFilm Film::read() const {
-    RawFilm raw{width_, height_, std::vector<uint32_t>(layout_.words() * size_t{width_} * height_),
-                rawTallies(), layout_};
+    RawFilm raw{width_,       height_, std::vector<uint32_t>(layout_.words() * size_t{width_} * height_),
+                rawTallies(), layout_, ids_};
     for (const FilmBand& band : bands_) {
         const std::vector<uint32_t> words = band.sums.downloadAll<uint32_t>();
         forEachWord(band, raw, [&](size_t ofBand, size_t ofImage, size_t count) {
@@ -98,6 +104,7 @@ void Film::restore(const RawFilm& raw) {
         });
         band.sums.upload(std::span<const uint32_t>(words));
     }
+    ids_ = raw.ids;
     std::vector<uint32_t> tallies;
     for (const uint64_t count : raw.tallies) {
         tallies.push_back(static_cast<uint32_t>(count));

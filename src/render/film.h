@@ -32,6 +32,10 @@ class Film {
     [[nodiscard]] std::span<const FilmBand> bands() const { return bands_; }
     [[nodiscard]] const gpu::Buffer& tallies() const { return tallies_; }
 
+    // Counts what samples of pixel `pixel` met: ids for each of layout().idLayers().
+    void countIds(size_t pixel, std::span<const uint32_t> idsOfLayers);
+    [[nodiscard]] const std::vector<IdLayer>& ids() const { return ids_; }
+
     // Zero samples everywhere.
     void clear();
     [[nodiscard]] Rendering resolve() const;
@@ -49,6 +53,7 @@ class Film {
     uint32_t height_;
     FilmLayout layout_;
     std::vector<FilmBand> bands_;
+    std::vector<IdLayer> ids_;
     gpu::Buffer tallies_;
 };
 

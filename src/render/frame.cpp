@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "render/pixel_filter.h"
 #include "scene/clipping.h"
 #include "scene/starting_solids.h"
 #include "scene/view_extent.h"
@@ -40,12 +41,32 @@ glm::vec3 turned(const glm::vec3& direction, float turns) {
             d.z * std::cos(angle) - d.x * std::sin(angle)};
 }
 
+void setFilter(const FilterTable& table, FrameParameters& frame) {
+    frame.hasFilter = 1;
+    frame.filterPositive = table.positive;
+    frame.filterScale = table.scale;
+    for (size_t i = 0; i < table.nodes.size(); ++i)
+        frame.filterNodes[i / 4][static_cast<glm::length_t>(i % 4)] = table.nodes[i];
+}
+
+// What camera rays see through all pixels: a filter lets those at the border reach beyond it.
+ViewExtent seenExtent(const Camera& camera, const RenderSettings& settings) {
+    const auto width = static_cast<float>(settings.image.width);
+    const auto height = static_cast<float>(settings.image.height);
+    const float beyond = std::max(0.0f, filterRadius(settings.estimator) - 0.5f);
+    ViewExtent view = viewExtent(camera, width, height);
+    view.halfWidth *= 1.0f + 2.0f * beyond / width;
+    view.halfHeight *= 1.0f + 2.0f * beyond / height;
+    return view;
+}
+
 } // namespace
 
 FrameParameters makeFrame(const Scene& scene, const Camera& camera, const RenderSettings& settings) {
     const ViewExtent view = viewExtent(camera, static_cast<float>(settings.image.width),
                                        static_cast<float>(settings.image.height));
-    const ClipRange clip = neededClipping(scene, camera, view);
+    const ViewExtent seen = seenExtent(camera, settings);
+    const ClipRange clip = neededClipping(scene, camera, seen);
     FrameParameters frame{};
     frame.cameraPosition = camera.position;
     frame.projection = static_cast<uint32_t>(camera.projection);
@@ -58,6 +79,11 @@ FrameParameters makeFrame(const Scene& scene, const Camera& camera, const Render
     frame.focusDistance = camera.focusDistance;
     frame.imageWidth = settings.image.width;
     frame.imageHeight = settings.image.height;
+    const PixelWindow window = windowOf(settings.image);
+    frame.cropStart = window.y * settings.image.width + window.x;
+    frame.cropWidth = window.width;
+    if (!isUnitBox(settings.estimator))
+        setFilter(filterTable(settings.estimator), frame);
     frame.seed = settings.estimator.seed;
     frame.environmentLight = kNoLight;
     frame.environmentRotation = settings.lighting.rotation / 360.0f;
@@ -72,7 +98,14 @@ FrameParameters makeFrame(const Scene& scene, const Camera& camera, const Render
     frame.hasLayers = settings.layers != 0 ? 1u : 0u;
     if (settings.background.kind == Background::constant)
         frame.background = settings.background.radiance;
-    setStart(startingSolids(scene, camera, view, clip.nearest), frame);
+    const Camera& next = scene.next ? scene.next->camera : camera;
+    const ViewExtent nextView =
+        viewExtent(next, static_cast<float>(settings.image.width), static_cast<float>(settings.image.height));
+    frame.nextPosition = next.position;
+    frame.nextRight = next.right * nextView.halfWidth;
+    frame.nextUp = next.up * nextView.halfHeight;
+    frame.nextForward = next.forward;
+    setStart(startingSolids(scene, camera, seen, clip.nearest), frame);
     return frame;
 }
 

@@ -13,6 +13,7 @@ class FusedPaths : public WaveRenderer {
     FusedPaths(gpu::Device& device, const WaveInputs& inputs);
 
     void renderWave(const Transport& transport, size_t band, WaveRange range) override;
+    [[nodiscard]] const gpu::Buffer& slots(std::string_view block) const override { return state_[block]; }
     [[nodiscard]] gpu::KernelTimes kernelTimes() const override { return commands_.times(); }
 
   private:

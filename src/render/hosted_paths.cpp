@@ -21,6 +21,12 @@ gpu::Buffer makeRecords(gpu::Device& device, const char* name, uint32_t planes, 
     return {device, name, uint64_t{planes} * planeStride(waveSize) * sizeof(glm::uvec4), use};
 }
 
+std::span<PathLayers> layersOf(const SlotState& state, const WaveInputs& inputs) {
+    if (inputs.frame.hasLayers == 0)
+        return {};
+    return state["Layers"].mapped<PathLayers>();
+}
+
 } // namespace
 
 HostedPaths::HostedPaths(gpu::Device& device, const WaveInputs& inputs)
@@ -30,7 +36,7 @@ HostedPaths::HostedPaths(gpu::Device& device, const WaveInputs& inputs)
       written_(
           makeRecords(device, "shaded records", kPlanesOut, inputs.frame.waveSize, gpu::BufferUse::storage)),
       buffers_{written_.mapped<const glm::uvec4>(), read_.mapped<glm::uvec4>(),
-               state_["Paths"].mapped<Path>(), planeStride(inputs.frame.waveSize)},
+               state_["Paths"].mapped<Path>(), layersOf(state_, inputs), planeStride(inputs.frame.waveSize)},
       tracer_(hostScene(inputs.scene, inputs.features), inputs.classes.ofMaterials,
               static_cast<uint32_t>(classes_.size()), inputs.frame.waveSize),
       commands_(device) {

@@ -16,6 +16,7 @@ class HostedPaths : public WaveRenderer {
     HostedPaths(gpu::Device& device, const WaveInputs& inputs);
 
     void renderWave(const Transport& transport, size_t band, WaveRange range) override;
+    [[nodiscard]] const gpu::Buffer& slots(std::string_view block) const override { return state_[block]; }
     [[nodiscard]] gpu::KernelTimes kernelTimes() const override;
 
   private:

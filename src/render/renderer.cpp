@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "device_scene/scene_features.h"
+#include "device_scene/triangle_layers.h"
 #include "hosted/host_rays.h"
 #include "render/schedule_choice.h"
 #include "render/wave_budget.h"
@@ -38,6 +39,27 @@ WaveWalk walkThrough(const RenderSettings& settings, const Film& film) {
     return {phasesOf(settings), std::move(limits)};
 }
 
+// For layers that ask for it; else nothing.
+gpu::Buffer makeTriangleLayers(gpu::Device& device, const Scene& scene, const RenderSettings& settings) {
+    const bool isAsked = (settings.layers & (1u << kUvPlane | 1u << kMotionPlane)) != 0;
+    const std::vector<TriangleLayers> layers =
+        isAsked ? triangleLayers(scene) : std::vector<TriangleLayers>();
+    gpu::Buffer buffer(device, "layers of triangles", layers.size() * sizeof(TriangleLayers),
+                       gpu::BufferUse::storage);
+    if (!layers.empty())
+        buffer.upload(std::span<const TriangleLayers>(layers));
+    return buffer;
+}
+
+SurfaceIds makeSurfaceIds(const Scene& scene, const RenderSettings& settings) {
+    return layoutOf(filmPlanes(settings)).idLayers().empty() ? SurfaceIds() : surfaceIds(scene);
+}
+
+Film makeFilm(gpu::Device& device, const RenderSettings& settings) {
+    const PixelWindow window = windowOf(settings.image);
+    return {device, window.width, window.height, settings.work.bandRows, layoutOf(filmPlanes(settings))};
+}
+
 std::vector<KernelVariant> variantsFor(const RenderSettings& settings, const MaterialClasses& classes) {
     return kernelVariants(phasesOf(settings), settings.work.schedule, classes);
 }
@@ -60,7 +82,8 @@ namespace {
 SceneFeatures viewFeatures(const Camera& camera, const FrameParameters& frame) {
     return cameraFeatures(camera) | (frame.startsVary != 0 ? kFeatureStartsVary : 0u) |
            (frame.hasBackground != 0 ? kFeatureBackground : 0u) |
-           (frame.hasLayers != 0 ? kFeatureLayers : 0u);
+           (frame.hasLayers != 0 ? kFeatureLayers : 0u) | (frame.hasFilter != 0 ? kFeatureFilter : 0u) |
+           (frame.cropStart != 0 || frame.cropWidth != frame.imageWidth ? kFeatureCrop : 0u);
 }
 
 } // namespace
@@ -82,12 +105,14 @@ struct Renderer::Setup {
     EstimatorKernels kernels;
     SceneData scene;
     LightSelection lightSelection;
+    gpu::Buffer triangleLayers;
+    SurfaceIds surfaceIds;
 
     using MakeKernels =
         std::function<EstimatorKernels(SceneFeatures features, const MaterialClasses& classes)>;
 
-    static Setup make(const Scene& scene, const Camera& camera, const RenderSettings& settings,
-                      const MakeKernels& makeKernels) {
+    static Setup make(gpu::Device& device, const Scene& scene, const Camera& camera,
+                      const RenderSettings& settings, const MakeKernels& makeKernels) {
         const EstimatorSettings& estimator = settings.estimator;
         const Lights lights = collectLights(scene, environmentFactor(scene, settings),
                                             estimator.lightSelection, estimator.mis != Mis::off);
@@ -98,7 +123,14 @@ struct Renderer::Setup {
         const SceneFeatures features = sceneFeatures(scene, lights) | viewFeatures(camera, frame);
         MaterialClasses classes = materialClasses(scene);
         EstimatorKernels kernels = makeKernels(features, classes);
-        return {frame, features, std::move(classes), std::move(kernels), packed.get(), lights.selection};
+        return {frame,
+                features,
+                std::move(classes),
+                std::move(kernels),
+                packed.get(),
+                lights.selection,
+                makeTriangleLayers(device, scene, settings),
+                makeSurfaceIds(scene, settings)};
     }
 };
 
@@ -109,8 +141,10 @@ struct Renderer::Fresh {
     SceneFeatures features;                    // with the camera's
     std::optional<EstimatorKernels> kernels{}; // none: the present ones serve, but for `changed`
     KernelMap changed{};
-    std::optional<AlbedoTable> albedoTable{}; // none: the present one serves
-    std::optional<Film> film{};               // none: the present one serves, emptied
+    std::optional<AlbedoTable> albedoTable{};    // none: the present one serves
+    std::optional<Film> film{};                  // none: the present one serves, emptied
+    std::optional<gpu::Buffer> triangleLayers{}; // none: the present ones serve, as the next
+    std::optional<SurfaceIds> surfaceIds{};
 };
 
 Renderer::Renderer(gpu::Device& device, const Scene& scene, const Camera& camera,
@@ -122,7 +156,7 @@ Renderer::Renderer(gpu::Device& device, const Scene& scene, const Camera& camera
                   return EstimatorKernels(device, variantsFor(settings, classes), settings.estimator,
                                           features, filmPlanes(settings), source);
               };
-              return Setup::make(scene, camera, settings, make);
+              return Setup::make(device, scene, camera, settings, make);
           },
           source) {}
 
@@ -139,7 +173,7 @@ Renderer::Renderer(gpu::Device& device, const Scene& scene, const Camera& camera
                   return EstimatorKernels(device, std::move(variants), settings.estimator, features, planes,
                                           source);
               };
-              return Setup::make(scene, camera, settings, make);
+              return Setup::make(device, scene, camera, settings, make);
           },
           source) {}
 
@@ -151,8 +185,8 @@ Renderer::Renderer(gpu::Device& device, const RenderSettings& settings, Setup se
                    const KernelSource& source)
     : device_(&device), settings_(settings), frame_(setup.frame), sceneFeatures_(setup.scene.features),
       features_(setup.features), classes_(std::move(setup.classes)), kernels_(std::move(setup.kernels)),
-      scene_(device, setup.scene, source), film_(device, settings.image.width, settings.image.height,
-                                                 settings.work.bandRows, layoutOf(filmPlanes(settings))),
+      scene_(device, setup.scene, source), film_(makeFilm(device, settings)),
+      triangleLayers_(std::move(setup.triangleLayers)), surfaceIds_(std::move(setup.surfaceIds)),
       walk_(walkThrough(settings, film_)), waves_(makeWaves(Fresh{settings_, frame_, features_})) {
     settings_.estimator.lightSelection = setup.lightSelection;
 }
@@ -199,10 +233,13 @@ void Renderer::restart(const Scene& scene, const Camera& camera, const RenderSet
     if (!kernels_.serve(variants, estimator, fresh.features, planes))
         fresh.kernels.emplace(*device_, std::move(variants), estimator, fresh.features, planes, source);
     compileChanged(fresh, source);
-    if (fresh.settings.image.width != film_.width() || fresh.settings.image.height != film_.height() ||
-        planes != filmPlanes(settings_))
-        fresh.film.emplace(*device_, fresh.settings.image.width, fresh.settings.image.height,
-                           fresh.settings.work.bandRows, layoutOf(planes));
+    const PixelWindow window = windowOf(fresh.settings.image);
+    if (window.width != film_.width() || window.height != film_.height() || planes != filmPlanes(settings_))
+        fresh.film.emplace(makeFilm(*device_, fresh.settings));
+    if (planes != filmPlanes(settings_)) {
+        fresh.triangleLayers.emplace(makeTriangleLayers(*device_, scene, fresh.settings));
+        fresh.surfaceIds.emplace(makeSurfaceIds(scene, fresh.settings));
+    }
     startAnew(std::move(fresh));
 }
 
@@ -216,8 +253,9 @@ std::unique_ptr<WaveRenderer> Renderer::makeWaves(const Fresh& fresh) const {
     };
     const AlbedoTable& albedo = fresh.albedoTable ? *fresh.albedoTable : scene_.albedoTable();
     const Film& film = fresh.film ? *fresh.film : film_;
-    return makeWaveRenderer(*device_, {phases, fresh.settings.work.schedule, scene_, albedo.buffer, film,
-                                       fresh.frame, kernel, classes_, fresh.features});
+    const gpu::Buffer& triangles = fresh.triangleLayers ? *fresh.triangleLayers : triangleLayers_;
+    return makeWaveRenderer(*device_, {phases, fresh.settings.work.schedule, scene_, albedo.buffer, triangles,
+                                       film, fresh.frame, kernel, classes_, fresh.features});
 }
 
 // Everything that may fail comes first; what is bound to kernels and film goes before them.
@@ -234,6 +272,10 @@ void Renderer::startAnew(Fresh fresh) {
         scene_.setAlbedoTable(std::move(*fresh.albedoTable));
     if (fresh.film)
         film_ = std::move(*fresh.film);
+    if (fresh.triangleLayers)
+        triangleLayers_ = std::move(*fresh.triangleLayers);
+    if (fresh.surfaceIds)
+        surfaceIds_ = std::move(*fresh.surfaceIds);
     filmIsEmptied_ = true;
     settings_ = fresh.settings;
     frame_ = fresh.frame;
@@ -292,7 +334,27 @@ void Renderer::step(uint32_t mostSlots) {
         emptyFilm();
     const Wave wave = walk_.next(mostSlots);
     waves_->renderWave(*wave.transport, wave.band, wave.range);
+    if (!film_.ids().empty())
+        countIds(wave.range);
     walk_.goPast(wave);
+}
+
+void Renderer::countIds(const WaveRange& range) {
+    waves_->finish();
+    std::vector<uint32_t> surfaces(size_t{range.pixelCount} * range.sampleCount);
+    waves_->slots("Surfaces").download(std::as_writable_bytes(std::span(surfaces)));
+    for (size_t slot = 0; slot < surfaces.size(); ++slot) {
+        if (surfaces[slot] == kDroppedSample)
+            continue;
+        const bool isMet = isSurface({surfaces[slot]});
+        std::vector<uint32_t> ids;
+        for (const IdLayer& layer : film_.ids()) {
+            const bool isObjects = layer.name == layerNameOf(kObjectIds);
+            const std::vector<uint32_t>& all = isObjects ? surfaceIds_.objects : surfaceIds_.materials;
+            ids.push_back(isMet ? all[surfaces[slot]] : kNoId);
+        }
+        film_.countIds(range.firstPixel + slot / range.sampleCount, ids);
+    }
 }
 
 double errorEstimate(const Rendering& rendering) {

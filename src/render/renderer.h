@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "device_scene/gpu_scene.h"
+#include "device_scene/triangle_layers.h"
 #include "film/stop_reason.h"
 #include "gpu/commands.h"
 #include "gpu/device.h"
@@ -106,6 +107,8 @@ class Renderer {
     [[nodiscard]] std::unique_ptr<WaveRenderer> makeWaves(const Fresh& fresh) const;
     void startAnew(Fresh fresh);
     void emptyFilm();
+    // Adds what the samples of a wave met to the film's ids.
+    void countIds(const WaveRange& range);
 
     struct Setup;
     Renderer(gpu::Device& device, const RenderSettings& settings,
@@ -121,6 +124,8 @@ class Renderer {
     EstimatorKernels kernels_;
     GpuScene scene_;
     Film film_;
+    gpu::Buffer triangleLayers_; // a TriangleLayers for each triangle, or none
+    SurfaceIds surfaceIds_;      // none where no ids are counted
     WaveWalk walk_;
     std::unique_ptr<WaveRenderer> waves_;
     bool filmIsEmptied_ = true; // false: emptying it failed, and has to be done before the first sample

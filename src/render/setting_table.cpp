@@ -38,6 +38,11 @@ constexpr std::array kFresnels{named("exact", Fresnel::exact), named("schlick", 
 constexpr std::array kTextureFilters{named("bilinear", TextureFilter::bilinear),
                                      named("stochastic", TextureFilter::stochastic)};
 
+constexpr std::array kPixelFilters{named("box", PixelFilter::box), named("tent", PixelFilter::tent),
+                                   named("gaussian", PixelFilter::gaussian),
+                                   named("blackman-harris", PixelFilter::blackmanHarris),
+                                   named("mitchell", PixelFilter::mitchell)};
+
 template <auto member>
 constexpr NamedValues oneOf(std::span<const Name> names, std::optional<uint32_t> constant) {
     using Value = std::remove_reference_t<decltype(std::declval<EstimatorSettings&>().*member)>;
@@ -186,6 +191,28 @@ constexpr std::array kRows{
                .panelLabel = "clamp indirect light",
                .panelHelp = "Takes the tops off fireflies, and light with them: the image is biased. The "
                             "limit is for the largest channel of what comes from beyond the first vertex"},
+    SettingRow{
+        .name = "filter",
+        .values = oneOf<&E::pixelFilter>(kPixelFilters, std::nullopt),
+        .decidesBits = true,
+        .mayChangeMean = true,
+        .help =
+            "Pixel filter: how a pixel weighs the light around its middle. Samples are drawn by it, so that "
+            "pixels stay independent; mitchell has negative lobes, which sharpen",
+        .panelLabel = "pixel filter",
+        .panelHelp = "How a pixel weighs the light around its middle: wider filters are smoother, and edges "
+                     "have fewer stairs"},
+    SettingRow{
+        .name = "filter-radius",
+        .values = PositiveNumber{&E::filterRadius, std::numeric_limits<float>::infinity(), 0.1f, 4.0f, "auto",
+                                 1.0f},
+        .decidesBits = true,
+        .mayChangeMean = true,
+        .help =
+            "Pixels from the middle to where the filter ends; auto: 0.5 of box, 1 of tent, 2 of mitchell, "
+            "1.5 of the others",
+        .panelLabel = "filter radius",
+        .panelHelp = "Pixels from the middle to where the filter ends"},
     SettingRow{.name = "seed",
                .values = WholeNumber{&E::seed, 0, std::numeric_limits<uint32_t>::max(), 1'000'000},
                .decidesBits = true,

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/option_text.h"
 #include "film/film_layout.h"
+#include "render/pixel_filter.h"
 #include "render/setting_names.h"
 #include "render/setting_rules.h"
 #include "render/setting_text.h"
@@ -15,9 +16,21 @@
 
 namespace lavalight {
 
+PixelWindow windowOf(const ImageSettings& image) {
+    return image.crop.value_or(PixelWindow{0, 0, image.width, image.height});
+}
+
+FilmPart partOf(const ImageSettings& image) {
+    return {{image.width, image.height}, {windowOf(image)}};
+}
+
 void checkSettings(const RenderSettings& settings) {
     requireRange("--size (width)", settings.image.width, 1, kMaxImageSide);
     requireRange("--size (height)", settings.image.height, 1, kMaxImageSide);
+    const PixelWindow window = windowOf(settings.image);
+    if (window.right() > settings.image.width || window.bottom() > settings.image.height)
+        throw UsageError(fmt::format("--crop: {} leaves the image of {}x{} pixels", textOf(window),
+                                     settings.image.width, settings.image.height));
     requireRange("--spp", settings.stop.samples, 1, 0x7fffffff);
     if (settings.work.waveSize != 0)
         requireRange("--wave-size", settings.work.waveSize, 64, 4000000);
@@ -38,14 +51,6 @@ bool isForDenoising(uint32_t layers) {
     return (layers & kDenoisingLayers) == kDenoisingLayers;
 }
 
-std::string namesOfLayers(uint32_t layers) {
-    std::vector<std::string> names;
-    for (uint32_t row = 0; row < kFilmPlaneCount; ++row)
-        if ((layers >> row & 1u) != 0)
-            names.push_back(planeName(row));
-    return fmt::format("{}", fmt::join(names, ","));
-}
-
 } // namespace
 
 uint32_t filmPlanes(const RenderSettings& settings) {
@@ -54,7 +59,11 @@ uint32_t filmPlanes(const RenderSettings& settings) {
     for (uint32_t row = 0; row < kFilmPlaneCount; ++row)
         if ((settings.layers >> row & 1u) != 0 && kFilmPlanes[row].isPerHit != 0)
             planes |= 1u << kHitsPlane;
-    return planes;
+    if ((settings.layers >> kIndirectPlane & 1u) != 0)
+        planes |= 1u << kDirectPlane;
+    if ((settings.layers & kCryptomatte) != 0)
+        planes |= kObjectIds | kMaterialIds;
+    return planes | (hasNegativeWeights(settings.estimator) ? kNegativeWeights : 0u);
 }
 
 OptionPairs describe(const RenderSettings& settings) {
@@ -64,6 +73,8 @@ OptionPairs describe(const RenderSettings& settings) {
     };
     add("schedule", nameOf(settings.work.schedule));
     add("size", fmt::format("{}x{}", settings.image.width, settings.image.height));
+    if (settings.image.crop)
+        add("crop", textOf(*settings.image.crop));
     add("spp", settings.stop.samples);
     add("first-sample", settings.image.firstSample);
     add("time", settings.stop.seconds);
@@ -93,7 +104,7 @@ OptionPairs describe(const RenderSettings& settings) {
     const uint32_t asked =
         isForDenoising(settings.layers) ? settings.layers & ~kDenoisingLayers : settings.layers;
     if (asked != 0)
-        add("aov", namesOfLayers(asked));
+        add("aov", fmt::format("{}", fmt::join(layerNames(asked), ",")));
     if (isForDenoising(settings.layers))
         add("denoise", "on");
     if (!settings.provenance.changedShaders.empty())

@@ -9,6 +9,7 @@
 
 #include <glm/glm.hpp>
 
+#include "film/film_windows.h"
 #include "render/estimator_settings.h"
 #include "scene/procedural/sky_environment.h"
 #include "shared/film.h"
@@ -30,9 +31,15 @@ enum class Schedule {
 struct ImageSettings {
     uint32_t width = 0; // pixels; 0: by the camera's aspect ratio from the height
     uint32_t height = 512;
-    uint32_t firstSample = 0; // samples before it are left to other renders
+    uint32_t firstSample = 0;          // samples before it are left to other renders
+    std::optional<PixelWindow> crop{}; // what of the image is rendered; none: all of it
     bool operator==(const ImageSettings&) const = default;
 };
+
+// The pixels that are rendered, of an image whose sides are settled.
+[[nodiscard]] PixelWindow windowOf(const ImageSettings& image);
+// What of the image that is.
+[[nodiscard]] FilmPart partOf(const ImageSettings& image);
 
 // When a render has enough.
 struct StopRule {
@@ -103,7 +110,8 @@ struct RenderSettings {
     WorkSettings work;
     LightingSettings lighting;
     BackgroundSettings background;
-    uint32_t layers = 0; // further planes of the film: bit i for row i of FILM_PLANES
+    uint32_t layers =
+        0; // further layers: bit i for row i of FILM_PLANES, kObjectIds, kMaterialIds, kCryptomatte
     Provenance provenance;
     bool operator==(const RenderSettings&) const = default;
 };
@@ -112,7 +120,8 @@ struct RenderSettings {
 inline constexpr uint32_t kDenoisingLayers =
     1u << kEmissionPlane | 1u << kGuideAlbedoPlane | 1u << kGuideNormalPlane;
 
-// The planes of the render's film: bit i for row i of FILM_PLANES (shaders/shared/film.h).
+// The planes of the render's film: bit i for row i of FILM_PLANES, kNegativeWeights, and layers of ids
+// (shaders/shared/film.h).
 [[nodiscard]] uint32_t filmPlanes(const RenderSettings& settings);
 
 constexpr uint32_t kMaxBounceLimit = 1024; // counters of every bounce are kept for the whole wave

@@ -69,7 +69,7 @@ std::vector<uint32_t> ToneMapper::map(const Image& image, const Image* coverage,
     constexpr uint32_t kWords = 4; // R, G, B, coverage
     ToneRange range = rangeOf(tone);
     range.isImage = 1;
-    range.plane = kFilmPlanes[kColorPlane];
+    range.plane = shapeOf(kColorPlane, 0);
     range.coverageWord = coverage != nullptr ? 3 : 0;
     const size_t count = image.pixels.size();
     const uint64_t most = device_->limits().maxStorageBufferBytes / (kWords * sizeof(float));

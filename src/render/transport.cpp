@@ -13,14 +13,18 @@ constexpr std::array kPathStart{KernelStep{"generate", Over::slots}};
 constexpr std::array kPathBounce{KernelStep{"extend", Over::rays}, KernelStep{"shade", Over::rays},
                                  KernelStep{"prepare", Over::once}, KernelStep{"connect", Over::shadowRays}};
 constexpr SlotBuffer kLayers{"Layers", "path layers", sizeof(PathLayers), kFeatureLayers};
+constexpr SlotBuffer kSurfaces{"Surfaces", "surfaces of samples", sizeof(uint32_t), kFeatureLayers};
 constexpr std::array kPathWavefrontState{SlotBuffer{"Rays", "rays", sizeof(Ray)},
                                          SlotBuffer{"Hits", "hits", sizeof(Hit)},
                                          SlotBuffer{"Paths", "paths", sizeof(Path)},
-                                         SlotBuffer{"ShadowRays", "shadow rays", sizeof(ShadowRay)}, kLayers};
+                                         SlotBuffer{"ShadowRays", "shadow rays", sizeof(ShadowRay)},
+                                         kLayers,
+                                         kSurfaces};
 constexpr std::array kPathFusedState{
     SlotBuffer{"Paths", "paths", sizeof(Path)},
-    SlotBuffer{"WaitingPaths", "waiting paths", sizeof(WaitingPath), kFeatureManyTriangles}, kLayers};
-constexpr std::array kPathHostedState{SlotBuffer{"Paths", "paths", sizeof(Path)}, kLayers};
+    SlotBuffer{"WaitingPaths", "waiting paths", sizeof(WaitingPath), kFeatureManyTriangles}, kLayers,
+    kSurfaces};
+constexpr std::array kPathHostedState{SlotBuffer{"Paths", "paths", sizeof(Path)}, kLayers, kSurfaces};
 
 } // namespace
 

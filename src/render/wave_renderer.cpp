@@ -12,7 +12,7 @@ namespace lavalight {
 namespace {
 
 gpu::Buffer uploadFrame(gpu::Device& device, FrameParameters parameters, const FilmBand& band) {
-    parameters.bandPixels = band.rows * parameters.imageWidth;
+    parameters.bandPixels = band.rows * parameters.cropWidth;
     gpu::Buffer buffer(device, "frame parameters", sizeof(FrameParameters), gpu::BufferUse::uniform);
     buffer.upload(std::span<const FrameParameters>(&parameters, 1));
     return buffer;
@@ -57,6 +57,7 @@ BoundBand::BoundBand(gpu::Device& device, const WaveInputs& inputs, const FilmBa
     : frame_(uploadFrame(device, inputs.frame, band)) {
     inputs.scene.addTo(resources);
     resources.set("albedoTable", inputs.albedoTable);
+    resources.set("Triangles", inputs.triangleLayers);
     resources.set("Tallies", inputs.film.tallies());
     resources.set("Frame", frame_);
     resources.set("Film", band.sums);

@@ -39,6 +39,9 @@ class WaveRenderer {
     // waves.
     virtual void finish() {}
 
+    // The buffer of a block of the transports' state, after finish().
+    [[nodiscard]] virtual const gpu::Buffer& slots(std::string_view block) const = 0;
+
     [[nodiscard]] const RayCounts& rays() const { return rays_; }
     // Camera rays, then those to the next vertex, by bounce: the lengths of the queues. Empty where there are
     // no queues.
@@ -60,7 +63,8 @@ struct WaveInputs {
     std::span<const Phase> phases;
     Schedule schedule;
     const GpuScene& scene;
-    const gpu::Buffer& albedoTable; // the scene's or another
+    const gpu::Buffer& albedoTable;    // the scene's or another
+    const gpu::Buffer& triangleLayers; // a TriangleLayers for each triangle, where layers ask for them
     const Film& film;
     const FrameParameters& frame;
     std::function<const gpu::Kernel&(std::string_view name)> kernel; // by the names of kernelVariants()

@@ -13,6 +13,7 @@ class Wavefront : public WaveRenderer {
     Wavefront(gpu::Device& device, const WaveInputs& inputs);
 
     void renderWave(const Transport& transport, size_t band, WaveRange range) override;
+    [[nodiscard]] const gpu::Buffer& slots(std::string_view block) const override { return state_[block]; }
     void finish() override;
     [[nodiscard]] gpu::KernelTimes kernelTimes() const override;
 

@@ -117,7 +117,8 @@ struct Mesh {
     // tangentSpaces() (scene/tangents.h) after the first, empty where the mesh lacks the coordinates. None:
     // those above serve all.
     std::vector<std::vector<glm::vec4>> furtherTangents{};
-    uint32_t solid = 0; // solid that it bounds, or helps to: 1 + an index into Scene::solids; 0: none
+    uint32_t solid = 0;  // solid that it bounds, or helps to: 1 + an index into Scene::solids; 0: none
+    uint32_t object = 0; // index into Scene::objects
 };
 
 // A panorama shows all directions, by the convention of environment maps.
@@ -213,13 +214,21 @@ struct CoarseGeometry {
     double size = 0.0;       // what is resolved by them
 };
 
+// What moves until the next frame of an animation.
+struct NextFrame {
+    std::vector<std::vector<glm::vec3>> positions; // of each mesh, as Mesh::positions, from the same origin
+    Camera camera;
+};
+
 struct Scene {
     std::string source; // file or built-in name
     // Where (0, 0, 0) of everything below lies in the file's world. All that people read or write of places
     // is in the world's coordinates.
     glm::dvec3 origin{0.0};
     std::vector<Mesh> meshes;
-    std::vector<Material> materials; // never empty: meshes without one use a default material
+    std::vector<std::string> objects; // names of what meshes are parts of: of the file's nodes
+    std::optional<NextFrame> next;    // none: nothing is known of it, or nothing moves
+    std::vector<Material> materials;  // never empty: meshes without one use a default material
     std::vector<Picture> pictures;
     std::vector<Camera> cameras; // never empty after import: one that frames the scene stands in
     bool hasOwnCamera = true;    // false: it is the stand-in, which moves with what it frames

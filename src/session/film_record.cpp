@@ -14,11 +14,11 @@ SampleRanges rangesOf(const RenderSettings& settings) {
     return {{settings.image.firstSample, settings.image.firstSample + settings.stop.samples}};
 }
 
-// Options that decide where passes end, where the error is estimated.
+// The window of the film, and options that decide where passes end, where the error is estimated.
 std::vector<std::string> alsoDecisive(const RenderSettings& settings) {
     if (settings.stop.targetError > 0.0)
-        return {"target-error", "spp", "wave-size", "band-rows"};
-    return {};
+        return {"crop", "target-error", "spp", "wave-size", "band-rows"};
+    return {"crop"};
 }
 
 Metadata headerOf(const RenderReport& report) {
@@ -40,6 +40,8 @@ FilmFile recordFilm(const Renderer& renderer, const Scene& scene, RenderReport r
     file.metadata.emplace_back(kRaysKey, textOf(report.rays));
     file.metadata.emplace_back(kSettingsLedger,
                                ledgerText(makeLedger(scene, report.settings, FilmTallies(), report.stop)));
+    if (report.settings.image.crop)
+        file.part = partOf(report.settings.image);
     return file;
 }
 

@@ -14,6 +14,7 @@
 #include "base/log.h"
 #include "base/os/file_lock.h"
 #include "base/version.h"
+#include "film/id_layers.h"
 #include "image/exr.h"
 #include "image/png.h"
 #include "render/setting_names.h"
@@ -35,6 +36,14 @@ PngTexts textsOf(const ToneSettings& tone) {
     return {{"Software", fmt::format("Lavalight {}", kVersion)},
             {"lavalight:tonemap", std::string(nameOf(tone.curve))},
             {"lavalight:exposure", fmt::format("{}", tone.exposure)}};
+}
+
+std::vector<Layer> denoisedLayers(const Rendering& rendering) {
+    std::vector<Layer> layers;
+    for (const char* name : {kDenoisedLayer, kDenoisedCoverage})
+        if (const Layer* layer = rendering.find(name))
+            layers.push_back(*layer);
+    return layers;
 }
 
 void addPartsOfStages(RenderReport& report, const RenderJob& job) {
@@ -102,6 +111,8 @@ void requireOutputs(const Outputs& outputs) {
 void writeOutputs(RenderJob& job, const Outputs& outputs, OutputStyle& style, ToneMapper* toneMapper) {
     RenderReport& report = job.report;
     Rendering rendering = job.renderer->rendering();
+    if (report.settings.image.crop)
+        rendering.place = placeOf(partOf(report.settings.image));
     fillResults(report, *job.renderer, *job.device, rendering, job.scene);
     if (style.denoiser) {
         const bool isSharp = job.renderer->frame().lensRadius == 0.0f;
@@ -114,10 +125,14 @@ void writeOutputs(RenderJob& job, const Outputs& outputs, OutputStyle& style, To
     if (report.tallies.crowdedPaths > 0)
         warn(report, crowdedText(job.scene, report.tallies));
     report.rays = report.rays + job.before.rays;
-    if (!outputs.exr.empty() && style.keepsFilm)
-        writeFilmFile(outputs.exr, job.film());
-    else if (!outputs.exr.empty())
-        writeExr(outputs.exr, rendering, exrMetadata(report));
+    if (!outputs.exr.empty() && style.keepsFilm) {
+        writeFilmFile(outputs.exr, job.film(), denoisedLayers(rendering));
+    } else if (!outputs.exr.empty()) {
+        const Metadata metadata = exrMetadata(report);
+        ExrContents ids;
+        addIdLayers(job.renderer->film().ids(), rendering.sampleCounts, metadata, ids);
+        writeExr(outputs.exr, rendering, metadata, ids);
+    }
     if (!outputs.png.empty()) {
         assert(toneMapper != nullptr);
         const bool exposesByImage = std::exchange(style.exposesByImage, false);
@@ -135,7 +150,7 @@ void writeOutputs(RenderJob& job, const Outputs& outputs, OutputStyle& style, To
                                   fmt::format("{}{}{}", exposesByImage ? "" : "--exposure auto",
                                               !exposesByImage && isDark ? ", or " : "",
                                               isDark ? "--env studio" : "")));
-        writePng(outputs.png, report.settings.image.width, report.settings.image.height, pixels,
+        writePng(outputs.png, rendering.radiance().width, rendering.radiance().height, pixels,
                  textsOf(style.tone));
     }
     job.watch.lap("write");

@@ -6,12 +6,14 @@
 
 #include "base/log.h"
 #include "hosted/host_rays.h"
+#include "image/png.h"
 #include "render/schedule_choice.h"
 #include "scene/clipping.h"
 #include "scene/view_extent.h"
 #include "scene/world_position.h"
 #include "session/builtin.h"
 #include "session/lit_scene.h"
+#include "session/next_frame.h"
 
 namespace lavalight {
 namespace {
@@ -75,13 +77,27 @@ void RenderSession::use(RenderSettings settings) {
     plan_.settings = std::move(settings);
 }
 
+// The camera that stands in, if there is one; each moment has an origin of its own.
+Camera RenderSession::cameraOf(const Scene& scene, const CameraChoice& choice) const {
+    if (!standIn_)
+        return chooseCamera(scene, choice, aspectOf(plan_.settings.image));
+    Camera camera = *standIn_;
+    camera.position = fromWorld(toWorld(camera.position, standInOrigin_), scene.origin);
+    return camera;
+}
+
+void RenderSession::loadNext(Scene& scene, const NextMoment& next) const {
+    const Scene later = loadScene(plan_, next.moment);
+    CameraChoice choice = plan_.camera;
+    choice.turns = next.turns;
+    scene.next = nextFrameOf(scene, later, cameraOf(later, choice));
+}
+
 // The first scene of an animation speaks for all: its warnings, its stand-in camera, its image's size.
 PreparedScene RenderSession::load(const ImportOptions& moment) {
     Scene scene = loadScene(plan_, moment);
     const bool frames = plan_.camera.view != NamedView::none || !scene.hasOwnCamera;
-    Camera camera = standIn_ ? *standIn_ : chooseCamera(scene, plan_.camera, aspectOf(plan_.settings.image));
-    if (standIn_) // each moment has an origin of its own
-        camera.position = fromWorld(toWorld(camera.position, standInOrigin_), scene.origin);
+    const Camera camera = cameraOf(scene, plan_.camera);
     if (frames && !plan_.camera.turns) {
         standIn_ = camera;
         standInOrigin_ = scene.origin;
@@ -119,9 +135,18 @@ std::vector<std::string> RenderSession::changedKernels(const RenderJob& job,
     return names;
 }
 
-RenderJob RenderSession::prepare(const ImportOptions& moment, const Outputs& outputs) {
+RenderJob RenderSession::prepare(const ImportOptions& moment, const Outputs& outputs,
+                                 const std::optional<NextMoment>& next) {
     RenderJob job;
     PreparedScene prepared = load(moment);
+    if (next && (plan_.settings.layers >> kMotionPlane & 1u) != 0)
+        loadNext(prepared.scene, *next);
+    if (!outputs.png.empty()) { // said before hours of rendering
+        const PixelWindow window = windowOf(prepared.settings.image);
+        requirePngFits(window.width, window.height,
+                       prepared.settings.background.kind == Background::transparent &&
+                           !plan_.style.tone.backdrop);
+    }
     job.report.import = moment;
     job.report.camera = prepared.camera.name;
     job.watch.lap("load");

@@ -55,9 +55,16 @@ class RenderSession {
     // Settings for the jobs to come, but for the record of shaders.
     void use(RenderSettings settings);
 
+    // What follows an image in a sequence, for its layer of motion.
+    struct NextMoment {
+        ImportOptions moment;
+        std::optional<float> turns; // of the plan's view
+    };
+
     // Loads the scene, opens the device if this is the first job, and compiles the kernels that `outputs`
     // need. Throws Error or UsageError.
-    [[nodiscard]] RenderJob prepare(const ImportOptions& moment, const Outputs& outputs);
+    [[nodiscard]] RenderJob prepare(const ImportOptions& moment, const Outputs& outputs,
+                                    const std::optional<NextMoment>& next = {});
     // Names of the kernels on which the job's images depend and whose code is another by `source`. Throws
     // Error as `source` does.
     [[nodiscard]] std::vector<std::string> changedKernels(const RenderJob& job,
@@ -74,6 +81,8 @@ class RenderSession {
 
   private:
     [[nodiscard]] PreparedScene load(const ImportOptions& moment);
+    void loadNext(Scene& scene, const NextMoment& next) const;
+    [[nodiscard]] Camera cameraOf(const Scene& scene, const CameraChoice& choice) const;
     [[nodiscard]] std::unique_ptr<Renderer> makeRenderer(const PreparedScene& prepared);
     void sayWhatTraces();
 

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/version.h"
+#include "film/id_layers.h"
 #include "render/phase.h"
 #include "render/setting_names.h"
 
@@ -85,6 +86,22 @@ Json ledgerJson(const std::vector<LedgerEntry>& ledger) {
     return json;
 }
 
+std::vector<std::string> objectNames(const Scene& scene) {
+    std::vector<std::string> names = scene.objects;
+    for (const Mesh& mesh : scene.meshes)
+        for (size_t i = names.size(); i <= mesh.object; ++i)
+            names.push_back(fmt::format("object {}", i));
+    return names;
+}
+
+std::vector<std::string> materialNames(const Scene& scene) {
+    std::vector<std::string> names;
+    for (size_t i = 0; i < scene.materials.size(); ++i)
+        names.push_back(scene.materials[i].name.empty() ? fmt::format("material {}", i)
+                                                        : scene.materials[i].name);
+    return names;
+}
+
 glm::dvec3 meanOf(const Image& image) {
     glm::dvec3 sum(0.0);
     for (const glm::vec3& pixel : image.pixels)
@@ -100,6 +117,9 @@ void fillInputs(RenderReport& report, const Scene& scene, const RenderSettings& 
     report.origin = scene.origin;
     report.triangles = scene.triangleCount();
     report.warnings = scene.warnings;
+    const FilmLayout layout = layoutOf(filmPlanes(settings));
+    for (const std::string& layer : layout.idLayers())
+        report.idNames[layer] = layer == layerNameOf(kObjectIds) ? objectNames(scene) : materialNames(scene);
 }
 
 void fillResults(RenderReport& report, const Renderer& renderer, const gpu::Device& device,
@@ -120,20 +140,21 @@ void fillResults(RenderReport& report, const Renderer& renderer, const gpu::Devi
 }
 
 Metadata exrMetadata(const RenderReport& report) {
-    Metadata metadata{{"version", std::string(kVersion)},
-                      {"scene", report.scene},
-                      {"camera", report.camera},
-                      {"device", report.device.name},
-                      {"driver", report.device.driver},
-                      {"samples-per-pixel",
-                       samplesPerPixel(report.samples,
-                                       uint64_t{report.settings.image.width} * report.settings.image.height)},
-                      {"render-seconds", fmt::format("{:.3f}", report.renderSeconds)},
-                      {"complete", report.stop == StopReason::interrupted ? "no, interrupted" : "yes"},
-                      {"bias-ledger", ledgerText(report.ledger)}};
+    Metadata metadata{
+        {"version", std::string(kVersion)},
+        {"scene", report.scene},
+        {"camera", report.camera},
+        {"device", report.device.name},
+        {"driver", report.device.driver},
+        {"samples-per-pixel", samplesPerPixel(report.samples, windowOf(report.settings.image).pixels())},
+        {"render-seconds", fmt::format("{:.3f}", report.renderSeconds)},
+        {"complete", report.stop == StopReason::interrupted ? "no, interrupted" : "yes"},
+        {"bias-ledger", ledgerText(report.ledger)}};
     if (report.origin != glm::dvec3(0.0))
         metadata.emplace_back("origin",
                               fmt::format("{},{},{}", report.origin.x, report.origin.y, report.origin.z));
+    for (const auto& [layer, names] : report.idNames)
+        metadata.emplace_back(namesKey(layer), textOf(names));
     for (const auto& [key, value] : describeOptions(report))
         metadata.emplace_back("option:" + key, value);
     for (const auto& [part, hash] : report.content)

@@ -1,6 +1,7 @@
 // What a render was and what it cost: the JSON report and the EXR header.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -23,8 +24,9 @@ using StageTimes = std::vector<std::pair<std::string, double>>;
 
 struct RenderReport {
     std::string scene;
-    glm::dvec3 origin{0.0}; // the scene's, in its world
-    ImportOptions import;   // which moment and variant of the scene were shown
+    glm::dvec3 origin{0.0};                                  // the scene's, in its world
+    std::map<std::string, std::vector<std::string>> idNames; // of objects or materials, by the layers of ids
+    ImportOptions import; // which moment and variant of the scene were shown
     std::string camera;
     RenderSettings settings;
     gpu::DeviceDescription device;

@@ -85,6 +85,24 @@ TEST_F(Merge, OtherSamplersAndSchedulesTheSame) {
     expectSameImage(at("ba.exr"), at("whole.exr"));
 }
 
+TEST_F(Merge, IdsAndCryptomattesAreThoseOfOneRender) {
+    const std::vector<std::string> layers{"--aov", "object-id,cryptomatte,indirect", "--filter", "mitchell"};
+    render("0:12", "whole.exr", layers, "cornell-glass");
+    render("0:5", "a.exr", layers, "cornell-glass");
+    render("5:12", "b.exr", layers, "cornell-glass");
+    merge({"b.exr", "a.exr"}, "ba.exr");
+    expectSameImage(at("ba.exr"), at("whole.exr"));
+    const FilmFile whole = readFilmFile(at("whole.exr"));
+    const FilmFile merged = readFilmFile(at("ba.exr"));
+    ASSERT_EQ(merged.film.ids.size(), 2u);
+    for (size_t layer = 0; layer < 2; ++layer)
+        for (size_t pixel = 0; pixel < whole.film.pixels(); ++pixel)
+            EXPECT_EQ(merged.film.ids[layer].counts.ranked(pixel),
+                      whole.film.ids[layer].counts.ranked(pixel));
+    render("5:12", "other.exr", {"--aov", "indirect", "--filter", "mitchell"}, "cornell-glass");
+    expectUnmergeable("a.exr", "other.exr", "--aov");
+}
+
 TEST_F(Merge, SamplesFromZeroAreThoseOfAnOrdinaryRender) {
     render("0:4", "a.exr");
     const ProgramResult result = run({"render", "--size", "20x15", "--spp", "4", "--quiet", "-o", "b.exr"});

@@ -1,4 +1,5 @@
 // `lavalight render --frames`: numbered files that hold what --at shows.
+#include <cmath>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -92,6 +93,30 @@ TEST_F(Sequence, RangesThatAreNoneAndTimesTwiceAreWrongUsage) {
         EXPECT_NE(result.err.find("lavalight: error: "), std::string::npos);
     }
     EXPECT_EQ(folder_.count(), 2);
+}
+
+// Motion of a triangle that grows: from the middle of the view outwards, in pixels of the next frame.
+TEST_F(Sequence, MotionLeadsToTheNextFrame) {
+    const ProgramResult result =
+        render({"seen.glb", "--frames", "0:2", "--fps", "2", "--aov", "motion,position", "-o", "out.exr"});
+    ASSERT_EQ(result.exitCode, 0) << result.err;
+    const ExrFile first = readExr(folder_ / "out_0000.exr");
+    const Layer* motion = first.find("motion");
+    const Layer* position = first.find("position");
+    ASSERT_NE(motion, nullptr);
+    const double pixelsPerMetre = 6.0 / std::tan(0.5) / 5.0; // at the triangle, in the plane z = 0
+    uint32_t met = 0;
+    for (size_t i = 0; i < motion->mean.pixels.size(); ++i) {
+        if (first.find("hits")->mean.pixels[i].x == 0.0f)
+            continue;
+        ++met; // half a second on, the triangle is twice as large
+        EXPECT_NEAR(motion->mean.pixels[i].x, pixelsPerMetre * position->mean.pixels[i].x, 1e-3);
+        EXPECT_NEAR(motion->mean.pixels[i].y, -pixelsPerMetre * position->mean.pixels[i].y, 1e-3);
+    }
+    EXPECT_GT(met, 2u);
+    const ProgramResult alone = render({"seen.glb", "--aov", "motion", "-o", "one.exr"});
+    EXPECT_EQ(alone.exitCode, 2);
+    EXPECT_NE(alone.err.find("--frames"), std::string::npos) << alone.err;
 }
 
 } // namespace

@@ -86,6 +86,7 @@ class OtherTrees : public DeviceTest {
         const GpuScene gpuScene(device(), data);
         FrameParameters frame = makeFrame(scene_, scene_.cameras.front(), settings_);
         setLights(frame, lights_);
+        const gpu::Buffer noLayers(device(), "no layers of triangles", 0, gpu::BufferUse::storage);
         Film film(device(), kSize, kSize, 0);
         film.clear();
         const auto kernel = [&](std::string_view name) -> const gpu::Kernel& { return (*kernels_)[name]; };
@@ -94,7 +95,7 @@ class OtherTrees : public DeviceTest {
         range.pixelCount = kSize * kSize;
         range.sampleCount = settings_.stop.samples;
         makeWaveRenderer(device(), {phases, settings_.work.schedule, gpuScene, gpuScene.albedoTable().buffer,
-                                    film, frame, kernel, classes_, features_})
+                                    noLayers, film, frame, kernel, classes_, features_})
             ->renderWave(kPathTransport, 0, range);
         return film.bands().front().sums.downloadAll<uint32_t>();
     }

@@ -41,11 +41,12 @@ class Phases : public DeviceTest {
         const GpuScene gpuScene(device(), packScene(scene_, lights, accelerator));
         FrameParameters frame = makeFrame(scene_, camera, settings_);
         setLights(frame, lights);
+        const gpu::Buffer noLayers(device(), "no layers of triangles", 0, gpu::BufferUse::storage);
         const Film film(device(), kSize, kSize, 0);
         const auto kernel = [&](std::string_view name) -> const gpu::Kernel& { return kernels[name]; };
         const auto waves =
-            makeWaveRenderer(device(), {phases, schedule, gpuScene, gpuScene.albedoTable().buffer, film,
-                                        frame, kernel, classes, features});
+            makeWaveRenderer(device(), {phases, schedule, gpuScene, gpuScene.albedoTable().buffer, noLayers,
+                                        film, frame, kernel, classes, features});
         WaveWalk walk(phases, {.bandPixels = {kSize * kSize}, .waveSize = settings_.work.waveSize});
         while (!walk.isDone()) {
             const Wave wave = walk.next(settings_.work.waveSize);

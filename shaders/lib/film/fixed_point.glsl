@@ -41,6 +41,18 @@ uint addWithCarry(uint a, uint b, inout uint carry) {
     return total;
 }
 
+// a - b for numbers of four words, in two's complement where a is the smaller; of three words, where the fourth are 0 and
+// a is not the smaller, too.
+uvec4 minus(uvec4 a, uvec4 b) {
+    uint carry = 1u; // a - b = a + ~b + 1
+    uvec4 difference;
+    difference.x = addWithCarry(a.x, ~b.x, carry);
+    difference.y = addWithCarry(a.y, ~b.y, carry);
+    difference.z = addWithCarry(a.z, ~b.z, carry);
+    difference.w = addWithCarry(a.w, ~b.w, carry);
+    return difference;
+}
+
 // sum += x for a number of four words; false: it left the range and stays at its largest value.
 bool addExactly(inout uvec4 sum, float x, int lowestExponent) {
     const Shifted s = toFixed(x, lowestExponent, 4u);

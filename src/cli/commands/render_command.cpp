@@ -21,13 +21,12 @@ namespace lavalight {
 namespace {
 
 void printSummary(const RenderReport& report) {
+    const PixelWindow window = windowOf(report.settings.image);
     fmt::print(
         "{}: {}x{}, {} samples per pixel in {:.2f} s on {} ({:.2f} M samples/s, {:.2f} M rays/s), bias "
         "ledger: {}\n",
-        report.scene, report.settings.image.width, report.settings.image.height,
-        report.samples / (uint64_t{report.settings.image.width} * report.settings.image.height),
-        report.renderSeconds, report.device.name,
-        static_cast<double>(report.samples) / report.renderSeconds * 1e-6,
+        report.scene, window.width, window.height, report.samples / window.pixels(), report.renderSeconds,
+        report.device.name, static_cast<double>(report.samples) / report.renderSeconds * 1e-6,
         static_cast<double>(report.rays.total()) / report.renderSeconds * 1e-6, ledgerText(report.ledger));
     std::fflush(stdout); // somebody who watches wants to know now
 }
@@ -52,6 +51,12 @@ RenderCommand::RenderCommand(CLI::App& app)
         ->type_name("OUT.exr|OUT.png")
         ->default_str("")
         ->allow_extra_args(false);
+    parser()
+        .add_option(
+            "--crop", crop_,
+            "Renders these pixels of the image alone, counted from its top left corner, with the bits that "
+            "the whole has there; the EXR can be joined with other parts (see lavalight merge)")
+        ->type_name("X,Y,WxH");
     parser().add_option("--png", png_, "Another way to write -o OUT.png")->type_name("OUT.png");
     parser()
         .add_option("--report", outputs_.report, "JSON report: times, rays, memory, ledger")
@@ -59,13 +64,26 @@ RenderCommand::RenderCommand(CLI::App& app)
     parser().add_flag("--quiet", quiet_, "No messages but errors, no summary");
 }
 
+std::optional<PixelWindow> RenderCommand::crop() const {
+    if (crop_.empty())
+        return std::nullopt;
+    const std::optional<PixelWindow> window = parsePixelWindow(crop_);
+    if (!window)
+        throw UsageError(
+            fmt::format("--crop: \"{}\" is not X,Y,WxH: the corner and the size of a part of the "
+                        "image, in pixels",
+                        crop_));
+    return window;
+}
+
 RenderPlan RenderCommand::plan() const {
     RenderPlan plan = options_.plan(scene_);
     plan.settings.background = background_.settings();
     plan.settings.layers = layers_.layers();
+    plan.settings.image.crop = this->crop();
     if (frames_.isTurntable() && plan.camera.view == NamedView::none)
         plan.camera.view = NamedView::threeQuarter;
-    plan.style = {options_.keepsFilm(), tone_.settings(), tone_.isAutomatic()};
+    plan.style = {options_.keepsFilm() || plan.settings.image.crop, tone_.settings(), tone_.isAutomatic()};
     plan.style.tone.backdrop = background_.backdrop();
     plan.style.layers = plan.settings.layers;
     if (const std::optional<DenoiseQuality> quality = denoise_.quality()) {
@@ -81,11 +99,10 @@ void RenderCommand::checkOptions() const {
         throw UsageError("--background: a colour is for a PNG; give -o OUT.png, or --background transparent");
     if (tone_.isGiven() && outputs_.png.empty())
         throw UsageError("--tonemap and --exposure are for a PNG; give -o OUT.png, or leave them out");
-    if (denoise_.quality() && options_.keepsFilm())
-        throw UsageError(
-            "--denoise and --samples: a part of the samples is not denoised; join the parts without it");
     if (layers_.layers() != 0 && outputs_.exr.empty())
         throw UsageError("--aov is for an EXR; give -o OUT.exr, or leave it out");
+    if ((layers_.layers() >> kMotionPlane & 1u) != 0 && !frames_.isAsked())
+        throw UsageError("--aov motion: motion leads to the next frame; give --frames or --turntable");
     if (frames_.isAsked() && shaders_.isWatching())
         throw UsageError(
             "--watch renders one image over and over, --frames and --turntable several: give one "
@@ -142,8 +159,14 @@ int RenderCommand::run() {
         return runSequence(session);
     requireOutputs(outputs_);
     Checkpoint checkpoint(outputs_.checkpoint, checkpoints_.interval());
-    return shaders_.isWatching() ? runWatching(session)
-                                 : renderMoment(session, sceneOptions_.importOptions(), outputs_, checkpoint);
+    return shaders_.isWatching()
+               ? runWatching(session)
+               : renderMoment(session, {sceneOptions_.importOptions(), {}}, outputs_, checkpoint);
+}
+
+ImportOptions RenderCommand::momentOf(uint32_t frame) const {
+    return frames_.isTurntable() ? sceneOptions_.importOptions()
+                                 : sceneOptions_.importOptionsAt(frames_.range().secondsOf(frame));
 }
 
 int RenderCommand::runSequence(RenderSession& session) const {
@@ -152,20 +175,18 @@ int RenderCommand::runSequence(RenderSession& session) const {
         const Outputs files = outputsOf(frame);
         requireOutputs(files);
         Checkpoint none({}, {});
-        const std::optional<float> turns = frames_.turnsOf(frame);
-        if (turns)
+        if (const std::optional<float> turns = frames_.turnsOf(frame))
             session.turn(*turns);
-        const ImportOptions moment =
-            turns ? sceneOptions_.importOptions() : sceneOptions_.importOptionsAt(range.secondsOf(frame));
-        if (const int code = renderMoment(session, moment, files, none); code != 0)
+        const RenderSession::NextMoment next{momentOf(frame + 1), frames_.turnsOf(frame + 1)};
+        if (const int code = renderMoment(session, {momentOf(frame), next}, files, none); code != 0)
             return code;
     }
     return 0;
 }
 
-int RenderCommand::renderMoment(RenderSession& session, const ImportOptions& moment, const Outputs& outputs,
+int RenderCommand::renderMoment(RenderSession& session, const Moment& moment, const Outputs& outputs,
                                 Checkpoint& checkpoint) const {
-    RenderJob job = session.prepare(moment, outputs);
+    RenderJob job = session.prepare(moment.now, outputs, moment.next);
     const InterruptGuard guard; // until all files are written: Ctrl-C loses no image
     {
         ProgressBar progress(!quiet_);

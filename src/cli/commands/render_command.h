@@ -28,6 +28,7 @@ class RenderCommand : public Command {
 
   private:
     [[nodiscard]] RenderPlan plan() const;
+    [[nodiscard]] std::optional<PixelWindow> crop() const;
     // Sorts the pictures that are asked for by their formats.
     void takeOutputs();
     void checkOptions() const;
@@ -37,8 +38,14 @@ class RenderCommand : public Command {
     void requireOutputsApart(const RenderPlan& plan) const;
     [[nodiscard]] int runSequence(RenderSession& session) const;
     [[nodiscard]] int runWatching(RenderSession& session) const;
-    [[nodiscard]] int renderMoment(RenderSession& session, const ImportOptions& moment,
-                                   const Outputs& outputs, Checkpoint& checkpoint) const;
+    // An image and, in a sequence, what follows it.
+    struct Moment {
+        ImportOptions now;
+        std::optional<RenderSession::NextMoment> next;
+    };
+    [[nodiscard]] ImportOptions momentOf(uint32_t frame) const;
+    [[nodiscard]] int renderMoment(RenderSession& session, const Moment& moment, const Outputs& outputs,
+                                   Checkpoint& checkpoint) const;
     void finishImage(RenderSession& session, RenderJob& job, const Outputs& outputs) const;
 
     RenderOptions options_;
@@ -53,6 +60,7 @@ class RenderCommand : public Command {
     std::string scene_ = "cornell-box";
     std::vector<std::string> pictures_; // -o
     std::string png_;
+    std::string crop_;
     Outputs outputs_;
     bool quiet_ = false;
 };

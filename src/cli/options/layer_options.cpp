@@ -12,16 +12,19 @@
 namespace lavalight {
 namespace {
 
-// A plane that somebody may ask for; the others come with what needs them.
+// A layer that somebody may ask for; the others come with what needs them.
 struct Offer {
     std::string name;
-    uint32_t row = 0;
+    uint32_t bit = 0;
 };
 
 std::vector<Offer> offers() {
     std::vector<Offer> offers;
-    for (const uint32_t row : {kAlbedoPlane, kNormalPlane, kDepthPlane, kPositionPlane, kEmissionPlane})
-        offers.push_back({planeName(row), row});
+    for (const uint32_t row : {kAlbedoPlane, kNormalPlane, kDepthPlane, kPositionPlane, kUvPlane,
+                               kEmissionPlane, kDirectPlane, kIndirectPlane, kMotionPlane})
+        offers.push_back({planeName(row), 1u << row});
+    for (const uint32_t bit : {kObjectIds, kMaterialIds, kCryptomatte})
+        offers.push_back({layerNameOf(bit), bit});
     return offers;
 }
 
@@ -39,7 +42,7 @@ LayerOptions::LayerOptions(CLI::App& parser) {
         .add_option(
             "--aov", names_,
             fmt::format("Layers of the EXR beside the colour, separated by commas: {}. They are means of the "
-                        "samples, as the colour is",
+                        "samples, but for ids, of which the most frequent counts",
                         fmt::join(namesOf(offers()), ", ")))
         ->type_name("LIST");
 }
@@ -55,7 +58,7 @@ uint32_t LayerOptions::layers() const {
         if (found == all.end())
             throw UsageError(fmt::format("--aov: cannot record a layer \"{}\": it is not known; try {}", name,
                                          fmt::join(namesOf(all), ", ")));
-        layers |= 1u << found->row;
+        layers |= found->bit;
     }
     return layers;
 }

@@ -228,6 +228,7 @@ class MeshReader {
             for (const PlacedNode* placed : nodes) {
                 const JsonView node = document_.list("nodes")[placed->node];
                 local.mesh.name = printable(ownName.empty() ? node.text("name") : ownName);
+                local.mesh.object = objectOf(placed->node, node.text("name"));
                 show(local, *placed, node, name);
             }
         }
@@ -239,6 +240,15 @@ class MeshReader {
     }
 
   private:
+    // The object that the node is.
+    uint32_t objectOf(size_t node, const std::string& name) {
+        const auto next = static_cast<uint32_t>(geometry_.objects.size());
+        const auto [known, isNew] = objects_.try_emplace(node, next);
+        if (isNew)
+            geometry_.objects.push_back(name.empty() ? fmt::format("node {}", node) : printable(name));
+        return known->second;
+    }
+
     // What one node shows of a primitive: morphed, then skinned or placed.
     void show(const LocalMesh& local, const PlacedNode& placed, JsonView node, const std::string& name) {
         const std::optional<size_t> skin = node.index("skin");
@@ -293,6 +303,7 @@ class MeshReader {
     GltfNotes& notes_;
     BakeCounts counts_;
     std::map<size_t, std::vector<glm::dmat4>> joints_; // by skin
+    std::map<size_t, uint32_t> objects_;               // by node
     size_t number_ = 0;                                // the file's, of the mesh that is read
     Geometry geometry_;
 };

@@ -12,7 +12,8 @@ namespace lavalight {
 
 struct Geometry {
     std::vector<Mesh> meshes;
-    VertexRuns runs; // before anything was rounded or dropped
+    std::vector<std::string> objects; // names of the nodes that show them: Mesh::object
+    VertexRuns runs;                  // before anything was rounded or dropped
 };
 
 // One Mesh per primitive and node (or instance) that shows it, morphed and skinned in the tree's pose,

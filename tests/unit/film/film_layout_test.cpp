@@ -40,7 +40,8 @@ TEST(FilmLayout, SignedSumsHaveAWordMoreAndPlanesWithoutSquaresNone) {
 
 // The kernels' macros and FilmLayout compute the same from the rows of planes.
 TEST(FilmLayout, SharedFunctionsAgreeWithIt) {
-    for (uint32_t asked = 1; asked < 1u << kFilmPlaneCount; asked += 2) {
+    for (uint32_t rows = 1; rows < 1u << kFilmPlaneCount; rows += 2) {
+        const uint32_t asked = rows | ((rows & 2u) != 0 ? kNegativeWeights : 0u);
         const FilmLayout layout = layoutOf(asked);
         EXPECT_EQ(countWordOf(asked), layout.countWord());
         size_t index = 0;
@@ -50,6 +51,29 @@ TEST(FilmLayout, SharedFunctionsAgreeWithIt) {
             }
         EXPECT_EQ(index, layout.planes().size());
     }
+}
+
+TEST(FilmLayout, NegativeWeightsGiveASignToColourAndCoverageAndNotToHits) {
+    const FilmLayout layout =
+        layoutOf(kNegativeWeights | 1u << kColorPlane | 1u << kCoveragePlane | 1u << kHitsPlane);
+    ASSERT_EQ(layout.planes().size(), 3u);
+    EXPECT_TRUE(layout.planes()[0].isSigned());
+    EXPECT_TRUE(layout.planes()[1].isSigned());
+    EXPECT_FALSE(layout.planes()[2].isSigned());
+    EXPECT_EQ(layout.find(kCoveragePlane), 1u);
+    EXPECT_EQ(parseFilmLayout(textOf(layout)), layout);
+}
+
+TEST(FilmLayout, LayersOfIdsStandAfterThePlanes) {
+    for (const uint32_t ids : {kObjectIds, kMaterialIds, kObjectIds | kMaterialIds}) {
+        const FilmLayout layout = layoutOf(ids | 1u << kColorPlane);
+        EXPECT_EQ(layout.idLayers(), layerNames(ids));
+        EXPECT_EQ(layout.words(), colorLayout().words());
+        EXPECT_EQ(parseFilmLayout(textOf(layout)), layout);
+        EXPECT_NE(layout, colorLayout());
+    }
+    EXPECT_FALSE(parseFilmLayout("color: R,G,B unsigned squares; pixel-id: ids").has_value());
+    EXPECT_FALSE(parseFilmLayout("object-id: ids; color: R,G,B unsigned squares").has_value());
 }
 
 TEST(FilmLayout, ItsTextIsReadBack) {
@@ -69,7 +93,7 @@ TEST(FilmLayout, ItsTextIsReadBack) {
 
 TEST(FilmLayout, TextThatIsNoLayoutIsNone) {
     for (const char* text :
-         {"", "color", "color: R,G,B", "color: R,G,B signed squares", "color: R,G,B unsigned squares; ",
+         {"", "color", "color: R,G,B", "color: R,G,B unsigned squares; ",
           "color: R,G,B unsigned squares more", "tilt: tilt.X signed",
           "color: R,G,B unsigned squares; a: ", "color: R,G,B unsigned squares; a: a.X,a.Y,a.Z,a.W signed",
           "color: R,G,B unsigned squares; : a signed", "color: R,G,B unsigned squares; a: R signed",
