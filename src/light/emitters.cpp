@@ -1,6 +1,7 @@
 // Collects emissive triangles.
 #include "light/emitters.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -8,9 +9,12 @@
 #include <optional>
 #include <span>
 #include <utility>
+#include <vector>
+
+#include <fmt/format.h>
 
 #include "base/error.h"
-#include "base/log.h"
+#include "base/parallel.h"
 #include "light/texture_mean.h"
 
 namespace lavalight {
@@ -96,24 +100,44 @@ class Exitance {
     ShownTexture coat_;
 };
 
+// What a triangle of an emitting mesh is as a light.
+struct Emission {
+    double area = 0.0;
+    double power = 0.0;
+};
+
+// Of each triangle, on all processors: a textured one takes the mean of its texels.
+std::vector<Emission> emissionsOf(const Mesh& mesh, const Exitance& exitance) {
+    constexpr size_t kAtATime = 256;
+    const size_t count = mesh.triangles.size();
+    std::vector<Emission> emissions(count);
+    forEachInParallel((count + kAtATime - 1) / kAtATime, [&](size_t part) {
+        for (size_t i = part * kAtATime; i < std::min(count, (part + 1) * kAtATime); ++i) {
+            const double area = triangleArea(mesh, mesh.triangles[i]);
+            emissions[i] = {area, area * exitance.of(mesh.triangles[i])};
+        }
+    });
+    return emissions;
+}
+
 // Fills list and emitterOfTriangle.
 void collect(const Scene& scene, const Mesh& mesh, TextureMeans& means, Emitters& emitters) {
+    const auto first = static_cast<uint32_t>(emitters.emitterOfTriangle.size());
+    emitters.emitterOfTriangle.resize(first + mesh.triangles.size(), kNoEmitter);
     const Exitance exitance(scene, mesh, means);
-    for (const glm::uvec3& triangle : mesh.triangles) {
-        const auto id = static_cast<uint32_t>(emitters.emitterOfTriangle.size());
-        emitters.emitterOfTriangle.push_back(kNoEmitter);
-        if (!exitance.emits())
-            continue;
-        const double area = triangleArea(mesh, triangle);
-        const double power = area * exitance.of(triangle);
+    if (!exitance.emits())
+        return;
+    uint32_t id = first;
+    for (const auto& [area, power] : emissionsOf(mesh, exitance)) {
         if (!std::isfinite(power))
             throw Error(
                 fmt::format("cannot use material '{}' as a light: triangle {} of mesh '{}' emits {} W",
                             scene.materials[mesh.material].name, id, mesh.name, power));
-        if (static_cast<float>(area) <= 0.0f || power <= 0.0)
-            continue;
-        emitters.emitterOfTriangle.back() = static_cast<uint32_t>(emitters.list.size());
-        emitters.list.push_back({id, static_cast<float>(area), power});
+        if (static_cast<float>(area) > 0.0f && power > 0.0) {
+            emitters.emitterOfTriangle[id] = static_cast<uint32_t>(emitters.list.size());
+            emitters.list.push_back({id, static_cast<float>(area), power});
+        }
+        ++id;
     }
 }
 

@@ -1,14 +1,35 @@
 #include "light/texture_mean.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
+#include <span>
 
 #include "image/texel.h"
 
 namespace lavalight {
 namespace {
 
-using Polygon = std::vector<glm::dvec2>;
+// A convex polygon: a triangle, to which each of the four sides of a cell adds a corner at most.
+class Polygon {
+  public:
+    Polygon() = default;
+    explicit Polygon(const std::array<glm::dvec2, 3>& triangle) : count_(triangle.size()) {
+        std::copy(triangle.begin(), triangle.end(), corners_.begin());
+    }
+
+    void add(const glm::dvec2& corner) {
+        assert(count_ < corners_.size());
+        corners_[count_++] = corner;
+    }
+    [[nodiscard]] std::size_t size() const { return count_; }
+    [[nodiscard]] const glm::dvec2& operator[](std::size_t i) const { return corners_[i]; }
+    [[nodiscard]] std::span<const glm::dvec2> corners() const { return {corners_.data(), count_}; }
+
+  private:
+    std::array<glm::dvec2, 7> corners_{};
+    std::size_t count_ = 0;
+};
 
 // The part of a polygon where p[axis] is above (side 1) or below (-1) the limit. Sutherland, Hodgman,
 // "Reentrant Polygon Clipping", 1974.
@@ -20,9 +41,9 @@ Polygon clipped(const Polygon& polygon, glm::length_t axis, double limit, double
         const double da = side * (a[axis] - limit);
         const double db = side * (b[axis] - limit);
         if (da >= 0.0)
-            kept.push_back(a);
+            kept.add(a);
         if ((da > 0.0 && db < 0.0) || (da < 0.0 && db > 0.0))
-            kept.push_back(glm::mix(a, b, da / (da - db)));
+            kept.add(glm::mix(a, b, da / (da - db)));
     }
     return kept;
 }
@@ -38,9 +59,9 @@ struct Range {
 
 // Cells of unit length that the polygon reaches into.
 Range cellsOf(const Polygon& polygon, glm::length_t axis) {
-    double low = polygon.front()[axis];
+    double low = polygon[0][axis];
     double high = low;
-    for (const glm::dvec2& p : polygon) {
+    for (const glm::dvec2& p : polygon.corners()) {
         low = std::min(low, p[axis]);
         high = std::max(high, p[axis]);
     }
@@ -99,13 +120,21 @@ glm::dvec3 TextureMean::texel(const Level& level, int64_t x, int64_t y) const {
                         wrapTexel(x, level.width, texture_.wrapU)];
 }
 
-// The texture at p, as cell (x, y) continues it.
-glm::dvec3 TextureMean::filtered(const Level& level, glm::dvec2 p, int64_t x, int64_t y) const {
+TextureMean::Cell TextureMean::cellAt(const Level& level, int64_t x, int64_t y) const {
+    const glm::dvec2 low(x, y);
     if (texture_.isNearest)
-        return texel(level, x, y);
-    const glm::dvec2 f = p - glm::dvec2(x, y);
-    return glm::mix(glm::mix(texel(level, x, y), texel(level, x + 1, y), f.x),
-                    glm::mix(texel(level, x, y + 1), texel(level, x + 1, y + 1), f.x), f.y);
+        return {low, {texel(level, x, y)}};
+    return {low,
+            {texel(level, x, y), texel(level, x + 1, y), texel(level, x, y + 1), texel(level, x + 1, y + 1)}};
+}
+
+// The texture at p, as the cell continues it.
+glm::dvec3 TextureMean::filtered(const Cell& cell, const glm::dvec2& p) const {
+    const auto& [low, texels] = cell;
+    if (texture_.isNearest)
+        return texels[0];
+    const glm::dvec2 f = p - low;
+    return glm::mix(glm::mix(texels[0], texels[1], f.x), glm::mix(texels[2], texels[3], f.x), f.y);
 }
 
 // The mean, cell by cell: in each the texture is a polynomial of degree 2, which the midpoints of a
@@ -113,22 +142,25 @@ glm::dvec3 TextureMean::filtered(const Level& level, glm::dvec2 p, int64_t x, in
 glm::dvec3 TextureMean::meanOver(const Triangle& triangle, const Level& level) const {
     glm::dvec3 sum(0.0);
     double area = 0.0;
-    const Polygon whole(triangle.corners.begin(), triangle.corners.end());
+    const Polygon whole(triangle.corners);
     const Range rows = cellsOf(whole, 1);
     for (int64_t y = rows.first; y <= rows.last; ++y) {
         const auto top = static_cast<double>(y);
         const Polygon row = clipped(clipped(whole, 1, top, 1.0), 1, top + 1.0, -1.0);
-        const Range columns = row.empty() ? Range{0, -1} : cellsOf(row, 0);
+        const Range columns = row.size() == 0 ? Range{0, -1} : cellsOf(row, 0);
         for (int64_t x = columns.first; x <= columns.last; ++x) {
             const auto left = static_cast<double>(x);
-            const Polygon cell = clipped(clipped(row, 0, left, 1.0), 0, left + 1.0, -1.0);
-            for (size_t i = 2; i < cell.size(); ++i) {
-                const double weight = twiceArea(cell[0], cell[i - 1], cell[i]);
-                sum += weight / 3.0 *
-                       (filtered(level, 0.5 * (cell[0] + cell[i - 1]), x, y) +
-                        filtered(level, 0.5 * (cell[i - 1] + cell[i]), x, y) +
-                        filtered(level, 0.5 * (cell[i] + cell[0]), x, y));
+            const Polygon part = clipped(clipped(row, 0, left, 1.0), 0, left + 1.0, -1.0);
+            const Cell cell = cellAt(level, x, y);
+            const bool isBlack = cell.texels == Texels{}; // as most of most emission textures is
+            for (size_t i = 2; i < part.size(); ++i) {
+                const double weight = twiceArea(part[0], part[i - 1], part[i]);
                 area += weight;
+                if (!isBlack)
+                    sum += weight / 3.0 *
+                           (filtered(cell, 0.5 * (part[0] + part[i - 1])) +
+                            filtered(cell, 0.5 * (part[i - 1] + part[i])) +
+                            filtered(cell, 0.5 * (part[i] + part[0])));
             }
         }
     }
@@ -143,8 +175,9 @@ glm::dvec3 TextureMean::meanAlong(const Triangle& triangle, const Level& level) 
         for (size_t edge = 0; edge < 3; ++edge) {
             const glm::dvec2 p =
                 glm::mix(triangle.corners[edge], triangle.corners[(edge + 1) % 3], (i + 0.5) / kSteps);
-            sum += filtered(level, p, static_cast<int64_t>(std::floor(p.x)),
-                            static_cast<int64_t>(std::floor(p.y)));
+            sum += filtered(
+                cellAt(level, static_cast<int64_t>(std::floor(p.x)), static_cast<int64_t>(std::floor(p.y))),
+                p);
         }
     return sum / (3.0 * kSteps);
 }

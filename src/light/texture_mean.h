@@ -32,11 +32,18 @@ class TextureMean {
     struct Triangle { // in texels of a level
         std::array<glm::dvec2, 3> corners;
     };
+    using Texels = std::array<glm::dvec3, 4>; // rows of two; of nearest texels the first alone
+    // What the texture is made of between four texel centres, or in one texel.
+    struct Cell {
+        glm::dvec2 low;
+        Texels texels;
+    };
 
     [[nodiscard]] static Level halved(const Level& level);
     [[nodiscard]] Triangle onLevel(const std::array<glm::vec2, 3>& uvs, const Level& level) const;
     [[nodiscard]] glm::dvec3 texel(const Level& level, int64_t x, int64_t y) const;
-    [[nodiscard]] glm::dvec3 filtered(const Level& level, glm::dvec2 p, int64_t x, int64_t y) const;
+    [[nodiscard]] Cell cellAt(const Level& level, int64_t x, int64_t y) const;
+    [[nodiscard]] glm::dvec3 filtered(const Cell& cell, const glm::dvec2& p) const;
     [[nodiscard]] glm::dvec3 meanOver(const Triangle& triangle, const Level& level) const;
     [[nodiscard]] glm::dvec3 meanAlong(const Triangle& triangle, const Level& level) const;
 
