@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cassert>
 #include <chrono>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "base/parallel.h"
 #include "device_scene/scene_features.h"
 #include "gpu/warm_up.h"
 #include "hosted/record_planes.h"
@@ -48,21 +50,38 @@ EstimatorKernels::EstimatorKernels(gpu::Device& device, std::vector<KernelVarian
     : settings_(settings), features_(features), planes_(planes),
       constants_(estimatorConstants(settings, features)), variants_(std::move(variants)) {
     const auto start = std::chrono::steady_clock::now();
-    std::vector<const gpu::Kernel*> made;
+    std::vector<const KernelVariant*> all;
     for (const KernelVariant& variant : variants_)
-        made.push_back(&kernels_.try_emplace(variant.name, compile(device, variant, source)).first->second);
-    gpu::warmUp(device, made);
+        all.push_back(&variant);
+    kernels_ = compile(device, all, source);
     seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-gpu::Kernel EstimatorKernels::compile(gpu::Device& device, const KernelVariant& variant,
-                                      const KernelSource& source) const {
+std::vector<gpu::SpecialisationConstant> EstimatorKernels::constantsOf(const KernelVariant& variant) const {
     // Records are laid out by the features of the whole scene.
     std::vector<gpu::SpecialisationConstant> constants =
         estimatorConstants(settings_, features_ & ~variant.without);
     constants.push_back({CONSTANT_RECORD_PLANES, recordPlanes(features_)});
     constants.push_back({CONSTANT_FILM_PLANES, planes_});
-    return {device, source(variant.kernel), constants};
+    return constants;
+}
+
+KernelMap EstimatorKernels::compile(gpu::Device& device, std::span<const KernelVariant* const> variants,
+                                    const KernelSource& source) const {
+    std::vector<gpu::KernelCode> codes; // in order, so that of several with errors the same one throws
+    for (const KernelVariant* variant : variants)
+        codes.push_back(source(variant->kernel));
+    std::vector<std::optional<gpu::Kernel>> built(variants.size());
+    forEachInParallel(variants.size(), [&](size_t i) {
+        built[i].emplace(device, std::move(codes[i]), constantsOf(*variants[i]));
+    });
+    KernelMap kernels;
+    std::vector<const gpu::Kernel*> made;
+    for (size_t i = 0; i < variants.size(); ++i)
+        made.push_back(&kernels.try_emplace(variants[i]->name, std::move(*built[i])).first->second);
+    if (!made.empty())
+        gpu::warmUp(device, made);
+    return kernels;
 }
 
 std::vector<std::string> EstimatorKernels::changed(const KernelSource& source) const {
@@ -79,14 +98,11 @@ bool EstimatorKernels::isChanged(const KernelVariant& variant, const KernelSourc
 }
 
 KernelMap EstimatorKernels::compileChanged(gpu::Device& device, const KernelSource& source) const {
-    KernelMap fresh;
-    std::vector<const gpu::Kernel*> made;
+    std::vector<const KernelVariant*> stale;
     for (const KernelVariant& variant : variants_)
         if (isChanged(variant, source))
-            made.push_back(&fresh.try_emplace(variant.name, compile(device, variant, source)).first->second);
-    if (!made.empty())
-        gpu::warmUp(device, made);
-    return fresh;
+            stale.push_back(&variant);
+    return compile(device, stale, source);
 }
 
 void EstimatorKernels::replace(KernelMap compiled) noexcept {

@@ -71,8 +71,10 @@ class EstimatorKernels {
 
   private:
     [[nodiscard]] bool isChanged(const KernelVariant& variant, const KernelSource& source) const;
-    [[nodiscard]] gpu::Kernel compile(gpu::Device& device, const KernelVariant& variant,
-                                      const KernelSource& source) const;
+    [[nodiscard]] std::vector<gpu::SpecialisationConstant> constantsOf(const KernelVariant& variant) const;
+    // On all processors. Throws Error as `source` does.
+    [[nodiscard]] KernelMap compile(gpu::Device& device, std::span<const KernelVariant* const> variants,
+                                    const KernelSource& source) const;
 
     EstimatorSettings settings_;
     SceneFeatures features_;
