@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "base/parallel.h"
+
 namespace lavalight {
 namespace {
 
@@ -138,10 +140,12 @@ Rendering emptyRendering(const FilmLayout& layout, uint32_t width, uint32_t heig
     return rendering;
 }
 
-void resolvePixels(std::span<const uint32_t> words, const FilmLayout& layout, size_t firstPixel,
-                   Rendering& rendering) {
-    const PixelSums sums(words, layout);
-    for (size_t pixel = 0; pixel < sums.pixels(); ++pixel)
+namespace {
+
+// Estimates of the pixels from `first` to before `end`.
+void resolveRange(const PixelSums& sums, const FilmLayout& layout, size_t firstPixel, size_t first,
+                  size_t end, Rendering& rendering) {
+    for (size_t pixel = first; pixel < end; ++pixel)
         rendering.sampleCounts[firstPixel + pixel] = sums.count(pixel);
     for (size_t plane = 0; plane < layout.planes().size(); ++plane) {
         const FilmPlane& shape = layout.planes()[plane].shape;
@@ -150,7 +154,7 @@ void resolvePixels(std::span<const uint32_t> words, const FilmLayout& layout, si
         const bool isShare = layer.name == kCoverageLayer;
         const std::optional<size_t> hits =
             layout.planes()[plane].isPerHit() ? layout.find(kHitsPlane) : std::nullopt;
-        for (size_t pixel = 0; pixel < sums.pixels(); ++pixel)
+        for (size_t pixel = first; pixel < end; ++pixel)
             for (uint32_t c = 0; c < shape.components; ++c) {
                 const uint32_t word = layout.firstWord(plane) + c * componentWordsOf(shape);
                 const double counted = hits ? sums.sum(pixel, layout.firstWord(*hits)) : sums.count(pixel);
@@ -164,6 +168,18 @@ void resolvePixels(std::span<const uint32_t> words, const FilmLayout& layout, si
     }
 }
 
+} // namespace
+
+void resolvePixels(std::span<const uint32_t> words, const FilmLayout& layout, size_t firstPixel,
+                   Rendering& rendering) {
+    const PixelSums sums(words, layout);
+    constexpr size_t kBlock = 8192; // pixels, a fraction of a millisecond
+    forEachInParallel((sums.pixels() + kBlock - 1) / kBlock, [&](size_t block) {
+        resolveRange(sums, layout, firstPixel, block * kBlock, std::min((block + 1) * kBlock, sums.pixels()),
+                     rendering);
+    });
+}
+
 Rendering resolve(const RawFilm& film) {
     Rendering rendering = emptyRendering(film.layout, film.width, film.height);
     resolvePixels(film.words, film.layout, 0, rendering);
@@ -172,8 +188,11 @@ Rendering resolve(const RawFilm& film) {
 
 double fromFixed(std::span<const uint32_t> words, int lowestExponent) {
     double value = 0.0;
-    for (size_t i = words.size(); i-- > 0;)
-        value += std::ldexp(static_cast<double>(words[i]), lowestExponent + 32 * static_cast<int>(i));
+    double unit = std::ldexp(1.0, lowestExponent + 32 * static_cast<int>(words.size()));
+    for (size_t i = words.size(); i-- > 0;) {
+        unit *= 0x1p-32;
+        value += unit * words[i]; // the product is exact
+    }
     return value;
 }
 
@@ -181,14 +200,15 @@ double fromFixed(std::span<const uint32_t> words, int lowestExponent) {
 double fromSigned(std::span<const uint32_t> words, int lowestExponent) {
     if ((words.back() & 0x80000000u) == 0)
         return fromFixed(words, lowestExponent);
-    std::vector<uint32_t> opposite;
+    std::array<uint32_t, kSignedSumWords> opposite;
+    assert(words.size() <= opposite.size());
     uint64_t carry = 1;
-    for (const uint32_t word : words) {
-        carry += uint32_t{~word};
-        opposite.push_back(static_cast<uint32_t>(carry));
+    for (size_t i = 0; i < words.size(); ++i) {
+        carry += uint32_t{~words[i]};
+        opposite[i] = static_cast<uint32_t>(carry);
         carry >>= 32;
     }
-    return -fromFixed(opposite, lowestExponent);
+    return -fromFixed(std::span(opposite).first(words.size()), lowestExponent);
 }
 
 PixelEstimate estimate(double sum, double sumOfSquares, uint32_t count) {
