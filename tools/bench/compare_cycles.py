@@ -1,53 +1,15 @@
-"""Renders one view of a glTF file with Lavalight and with Cycles and compares the pictures; see tools/bench/compare_cycles.
-
-Cycles gets the file through Blender's own importer, so that nothing of Lavalight's reading of glTF is repeated here. What is
-changed after the import are choices of Blender's that glTF does not ask for: multiple scattering between microfacets, which
-appendix B of glTF does not have, is turned off.
-"""
+"""Renders one view of a glTF file with Lavalight and with Cycles and compares the pictures; see tools/bench/compare_cycles."""
 import argparse
 import json
 import subprocess
 from pathlib import Path
 
 import bpy
-import addon_utils  # bpy has it, once it is imported itself
 import flip_evaluator
-import mathutils
 import numpy as np
 import OpenEXR
 
-
-def vector(text):
-    return mathutils.Vector([float(part) for part in text.split(",")])
-
-
-def to_blender(v):
-    """glTF's y is up, Blender's z."""
-    return mathutils.Vector((v.x, -v.z, v.y))
-
-
-def add_camera(scene, options):
-    data = bpy.data.cameras.new("view")
-    data.sensor_fit = "VERTICAL"
-    data.angle_y = np.radians(options.fov)
-    data.clip_start, data.clip_end = 1e-3, 1e4
-    camera = bpy.data.objects.new("view", data)
-    start, target = to_blender(vector(options.look_from)), to_blender(vector(options.look_at))
-    camera.location = start
-    camera.rotation_euler = (target - start).to_track_quat("-Z", "Y").to_euler()
-    scene.collection.objects.link(camera)
-    scene.camera = camera
-
-
-def add_environment(scene, path):
-    """Blender's equirectangular projection is Lavalight's, once y is up in the one and z in the other."""
-    scene.world = bpy.data.worlds.new("world")
-    scene.world.use_nodes = True
-    tree = scene.world.node_tree
-    picture = tree.nodes.new("ShaderNodeTexEnvironment")
-    picture.image = bpy.data.images.load(path)
-    picture.image.colorspace_settings.name = "Linear Rec.709"
-    tree.links.new(picture.outputs["Color"], tree.nodes["Background"].inputs["Color"])
+import cycles_scene
 
 
 def set_estimator(scene, options):
@@ -60,23 +22,12 @@ def set_estimator(scene, options):
     cycles.transmission_bounces = cycles.transparent_max_bounces = options.bounces
     cycles.blur_glossy = cycles.sample_clamp_direct = cycles.sample_clamp_indirect = 0
     cycles.pixel_filter_type = "BOX"
-    scene.render.resolution_x, scene.render.resolution_y = options.size
-    scene.render.resolution_percentage = 100
     settings = scene.render.image_settings
     settings.file_format, settings.color_depth, settings.color_mode = "OPEN_EXR", "32", "RGB"
 
 
 def render_with_cycles(options, out):
-    bpy.ops.wm.read_factory_settings(use_empty=True)
-    addon_utils.enable("io_scene_gltf2")
-    bpy.ops.import_scene.gltf(filepath=str(Path(options.scene).resolve()))
-    for material in bpy.data.materials:
-        for node in material.node_tree.nodes if material.node_tree else []:
-            if node.type == "BSDF_PRINCIPLED":
-                node.distribution = "GGX"
-    scene = bpy.context.scene
-    add_camera(scene, options)
-    add_environment(scene, str(Path(options.environment).resolve()))
+    scene = cycles_scene.load(options)
     set_estimator(scene, options)
     scene.render.filepath = str(out.resolve())
     bpy.ops.render.render(write_still=True)
@@ -99,12 +50,7 @@ def pixels(path):
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--lavalight", required=True)
-    parser.add_argument("scene")
-    parser.add_argument("environment")
-    parser.add_argument("--look-from", required=True)
-    parser.add_argument("--look-at", required=True)
-    parser.add_argument("--fov", type=float, default=40.0, help="vertical, degrees")
-    parser.add_argument("--size", default="512x512", type=lambda text: tuple(int(n) for n in text.split("x")))
+    cycles_scene.declare_view(parser)
     parser.add_argument("--spp", type=int, default=256)
     parser.add_argument("--bounces", type=int, default=16)
     parser.add_argument("--out", type=Path, default=Path("out/compare-cycles"))
