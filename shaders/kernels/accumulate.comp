@@ -40,7 +40,7 @@ vec3 directIn(uint slot) {
 // What the sample in a slot has of a plane: a line each, and the colour last. Components that the plane lacks are 0.
 vec3 valueIn(uint plane, uint slot) {
     if (plane == kCoveragePlane || plane == kHitsPlane)
-        return vec3(paths[slot].etaScale == kUncovered ? 0.0 : 1.0, 0.0, 0.0);
+        return vec3(paths[slot].etaScale <= kUncovered ? 0.0 : 1.0, 0.0, 0.0);
     if (plane == kAlbedoPlane)
         return layers[slot].albedo;
     if (plane == kNormalPlane)
@@ -63,6 +63,10 @@ vec3 valueIn(uint plane, uint slot) {
         return layers[slot].guideAlbedo;
     if (plane == kGuideNormalPlane)
         return layers[slot].guideNormal;
+    if (plane == kShadowPlane)
+        return paths[slot].etaScale == kCaught ? vec3(1.0, paths[slot].throughput.xy) : vec3(0.0);
+    if (plane == kBehindPlane)
+        return paths[slot].etaScale == kCaught ? paths[slot].radiance : vec3(0.0);
     return paths[slot].radiance;
 }
 

@@ -10,6 +10,10 @@ void main() {
         return;
     const uint slot = queues[shadowQueueStart(frame.waveSize) + gl_GlobalInvocationID.x];
     const ShadowRay ray = shadowRays[slot];
-    if (!isOccluded(ray, slot, range.bounce))
+    if (isOccluded(ray, slot, range.bounce))
+        return;
+    if (isCaught(paths[slot]))
+        paths[slot].throughput.y = paths[slot].throughput.x;
+    else
         paths[slot].radiance += ray.contribution;
 }

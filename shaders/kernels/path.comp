@@ -90,8 +90,12 @@ void main() {
         const Hit hit = trace(lane.slot, lane.bounce, lane.ray);
         const NextRays next = scatter(hit, lane.ray, lane.slot, lane.bounce, path);
         shadowRays += next.wantsShadowRay ? 1u : 0u;
-        if (next.wantsShadowRay && !isOccluded(next.shadow, lane.slot, lane.bounce))
-            path.radiance += next.shadow.contribution;
+        if (next.wantsShadowRay && !isOccluded(next.shadow, lane.slot, lane.bounce)) {
+            if (isCaught(path))
+                path.throughput.y = path.throughput.x;
+            else
+                path.radiance += next.shadow.contribution;
+        }
         cutPaths += next.isCut ? 1u : 0u;
         cutThroughput += next.isCut ? fixedThroughput(path.throughput) : 0u;
         crowdedPaths += next.crowdedSolid > 0u ? 1u : 0u;

@@ -139,6 +139,11 @@ Hit trace(uint slot, uint bounce, inout Ray ray) {
     return hit;
 }
 
+// Whether the ground caught the path: what arrives by its shadow ray is light on the ground, not radiance of the path.
+bool isCaught(Path path) {
+    return sceneHas(kFeatureShadowCatcher) && path.etaScale == kCaught;
+}
+
 // Whether something stops the shadow ray of the vertex after `bounce` others.
 bool isOccluded(ShadowRay ray, uint slot, uint bounce) {
     const RayFilter ignored = RayFilter(false, ray.fromSurface, ray.toSurface,

@@ -2,6 +2,7 @@
 // Based on: Kajiya, "The Rendering Equation", 1986.
 #include "scene/path_vertex.glsl"
 #include "scene/record_layers.glsl"
+#include "scene/shadow_catcher.glsl"
 
 // What there is to trace after a vertex.
 struct NextRays {
@@ -104,7 +105,10 @@ NextRays scatter(Hit hit, Ray ray, uint slot, uint bounce, inout Path path) {
         recordEmission(slot, bounce, found);
         if (bounce == 0u)
             path.etaScale = kUncovered;
-        return nothingNext();
+        NextRays next = nothingNext();
+        if (meetsGround(ray, bounce))
+            next.wantsShadowRay = catchLight(ray, slot, path, next.shadow);
+        return next;
     }
     return scatterAt(hit, ray, slot, bounce, path);
 }

@@ -50,6 +50,7 @@ SHARED_CONST SceneFeatures kFeatureSolids = SHARED_FEATURE(35u);        // paths
 SHARED_CONST SceneFeatures kFeatureManyTriangles = SHARED_FEATURE(36u); // so that it pays to trace alike rays together
 SHARED_CONST SceneFeatures kFeatureStartsVary = SHARED_FEATURE(37u);    // camera rays start in different solids
 SHARED_CONST SceneFeatures kFeatureEmission = SHARED_FEATURE(38u);      // a surface that emits
+SHARED_CONST SceneFeatures kFeatureShadowCatcher = SHARED_FEATURE(44u); // camera rays that meet nothing may meet the ground
 SHARED_CONST SceneFeatures kFeatureSun = SHARED_FEATURE(41u);    // a disc in the environment map
 SHARED_CONST SceneFeatures kFeatureLayers = SHARED_FEATURE(40u); // a render records PathLayers
 SHARED_CONST SceneFeatures kFeatureCrop = SHARED_FEATURE(42u);   // a part of the image is rendered

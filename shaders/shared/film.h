@@ -60,6 +60,10 @@ SHARED_CONST uint kIndirectPlane = 10u; // of the colour, the rest: its sums are
 SHARED_CONST uint kMotionPlane = 11u;  // pixels to where the surface is in the next frame, right and down
 SHARED_CONST uint kGuideAlbedoPlane = 12u; // for denoisers: of the first surface that is no smooth mirror or glass
 SHARED_CONST uint kGuideNormalPlane = 13u;
+// Of the ground that catches shadows (scene/shadow_catcher.glsl): the share of paths that it catches; luminance of the direct
+// light there; and the part of that which nothing is in the way of. shared/shadow.h makes alpha of them.
+SHARED_CONST uint kShadowPlane = 14u;
+SHARED_CONST uint kBehindPlane = 15u; // background that those paths see, which the shadow darkens
 
 // All planes that there are, a row each in the order of their numbers: number, name of the layer, channels in EXR files,
 // components, sign, hasSquares, isPerHit. A film has the colour and those that were asked for, in this order;
@@ -78,7 +82,9 @@ SHARED_CONST uint kGuideNormalPlane = 13u;
     PLANE(kIndirectPlane, "indirect", "indirect.R,indirect.G,indirect.B", 3u, kWeighted, 1u, 0u) \
     PLANE(kMotionPlane, "motion", "motion.X,motion.Y", 2u, kWithSign, 0u, 1u) \
     PLANE(kGuideAlbedoPlane, "guide-albedo", "guide-albedo.R,guide-albedo.G,guide-albedo.B", 3u, kWithoutSign, 0u, 0u) \
-    PLANE(kGuideNormalPlane, "guide-normal", "guide-normal.X,guide-normal.Y,guide-normal.Z", 3u, kWithSign, 0u, 0u)
+    PLANE(kGuideNormalPlane, "guide-normal", "guide-normal.X,guide-normal.Y,guide-normal.Z", 3u, kWithSign, 0u, 0u) \
+    PLANE(kShadowPlane, "shadow", "shadow.N,shadow.lit,shadow.visible", 3u, kWeighted, 0u, 0u) \
+    PLANE(kBehindPlane, "behind", "behind.R,behind.G,behind.B", 3u, kWeighted, 0u, 0u)
 
 // A film's planes are asked for by a word: bit i for row i, and this bit where weighted planes have a sign.
 SHARED_CONST uint kNegativeWeights = 0x80000000u;

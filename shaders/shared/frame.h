@@ -55,9 +55,9 @@ struct FrameParameters {
     vec4 filterNodes[33];
     // The camera of the next frame, as above, for kMotionPlane.
     vec3 nextPosition;
-    uint unused0;
+    uint catchesShadows; // kFeatureShadowCatcher is wanted
     vec3 nextRight;
-    uint unused1;
+    float groundHeight; // y of the plane that catches shadows
     vec3 nextUp;
     uint unused2;
     vec3 nextForward;

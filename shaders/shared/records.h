@@ -42,6 +42,7 @@ SHARED_CONST uint kRecordSlotMask = 0xffffffu;
 SHARED_CONST uint kRecordGoesOn = 0x1000000u;
 SHARED_CONST uint kRecordHasShadowRay = 0x2000000u;
 SHARED_CONST uint kRecordEmits = 0x4000000u;
+SHARED_CONST uint kRecordIsCaught = 0x10000000u; // the path is over, and becomes kCaught with the contribution as its throughput
 SHARED_CONST uint kRecordOnSurface = 0x8000000u; // rays start on the surface that was hit: they ignore it
 
 // Keeps planes from starting a power of two apart, where a record's parts would compete for one set of a cache.

@@ -19,7 +19,11 @@ struct ToneRange {
     uint coverageWord; // the same of the plane of coverage, by which the colour is associated; 0: all is covered
     FilmPlane plane;
     uint isImage; // 1: each component is one word that holds a float, and no samples are counted
-    uint unused;
+    uint shadowWord; // as coverageWord, of kShadowPlane; of an image, the word of that part of its coverage; 0: no shadows
+    uint behindWord; // the same of kBehindPlane, where the shadow has not been taken from what is shown
+    uint unused0;
+    uint unused1;
+    uint unused2;
 };
 
 // A specialisation constant: the curve picks code.

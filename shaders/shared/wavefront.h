@@ -31,11 +31,14 @@ struct Path {
     vec3 throughput; // product of f |cos| / pdf and 1 / survival so far
     float bsdfPdf;   // solid-angle pdf of the current ray as MIS takes it; 0: camera ray or delta lobe
     vec3 radiance;   // collected so far
-    float etaScale;  // product of eta^2 over refractions: undoes the scaling of radiance for roulette; or kUncovered
+    float etaScale;  // product of eta^2 over refractions: undoes the scaling of radiance for roulette; or one of these:
 };
 
 // Path::etaScale of a path that is over: its camera ray met nothing.
 SHARED_CONST float kUncovered = 0.0f;
+// The same where the ground catches its shadow: throughput.x is the luminance of a light sample there, and throughput.y of
+// what arrives of it.
+SHARED_CONST float kCaught = -1.0f;
 
 // A shadow ray with what it will add to its slot if nothing lies between t = 0 and 1 (the direction spans the whole
 // way to the light).

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/parallel.h"
+#include "film/film_shadow.h"
 
 namespace lavalight {
 namespace {
@@ -166,6 +167,7 @@ void resolveRange(const PixelSums& sums, const FilmLayout& layout, size_t firstP
                     layer.variance->pixels[firstPixel + pixel][at] = static_cast<float>(e.varianceOfMean);
             }
     }
+    castShadows(rendering, firstPixel + first, end - first);
 }
 
 } // namespace

@@ -14,6 +14,9 @@ namespace {
 constexpr uint32_t kRecordsPerChunk = 1024;
 constexpr size_t kChunksSortedAlone = 4; // in the time that it takes to wake a thread
 constexpr uint8_t kEnded = 0xff;         // in the place of a region
+// Features with which a kernel takes the rays that meet nothing.
+constexpr SceneFeatures kEndsInKernels =
+    kFeatureEnvironment | kFeatureEnvironmentMap | kFeatureBackground | kFeatureShadowCatcher;
 
 glm::vec3 xyz(const glm::uvec4& words) {
     return glm::uintBitsToFloat(glm::uvec3(words));
@@ -38,8 +41,8 @@ uint32_t RecordBuffers::slot(uint32_t record) const {
     return at(kPlaneOrigin, record).w & kRecordSlotMask;
 }
 
-glm::vec3& RecordBuffers::radiance(uint32_t record) const {
-    return paths[slot(record)].radiance;
+Path& RecordBuffers::path(uint32_t record) const {
+    return paths[slot(record)];
 }
 
 SurfaceId RecordBuffers::surfaceBefore(uint32_t record) const {
@@ -104,9 +107,13 @@ void RecordTracer::trace(const RecordBuffers& buffers, uint32_t bounce, Chunk& c
         chunk.rays += (flags & kRecordGoesOn) != 0 ? 1 : 0;
         regions_[i] = kEnded;
         if ((flags & kRecordEmits) != 0)
-            buffers.radiance(i) += xyz(buffers.at(kPlaneEmitted, i));
+            buffers.path(i).radiance += xyz(buffers.at(kPlaneEmitted, i));
+        if ((flags & kRecordIsCaught) != 0) {
+            buffers.path(i).etaScale = kCaught;
+            buffers.path(i).throughput = xyz(buffers.at(kPlaneContribution, i));
+        }
         if (bounce == kVerticesOfDirectLight && !buffers.layers.empty())
-            keepDirect(buffers.layers[buffers.slot(i)], buffers.radiance(i));
+            keepDirect(buffers.layers[buffers.slot(i)], buffers.path(i).radiance);
     }
     for (const uint32_t i : std::span(withShadowRay).first(chunk.shadowRays))
         connect(buffers, bounce, rays, i);
@@ -128,8 +135,13 @@ void RecordTracer::connect(const RecordBuffers& buffers, uint32_t bounce, HostRa
                         .toSurface = {direction.w},
                         .contribution = {},
                         .unused = 0.0f};
-    if (!rays.isOccluded(ray, buffers.slot(record), bounce - 1))
-        buffers.radiance(record) += xyz(buffers.at(kPlaneContribution, record));
+    if (rays.isOccluded(ray, buffers.slot(record), bounce - 1))
+        return;
+    Path& path = buffers.path(record);
+    if (path.etaScale == kCaught)
+        path.throughput.y = path.throughput.x;
+    else
+        path.radiance += xyz(buffers.at(kPlaneContribution, record));
 }
 
 // Traces the record's next ray; returns the region where it goes, or kEnded.
@@ -151,11 +163,11 @@ uint8_t RecordTracer::extend(const RecordBuffers& buffers, uint32_t bounce, Host
     if (hit.t < std::numeric_limits<float>::infinity())
         return classOfMaterials_[rays.materialOf(hit)];
     if (bounce == 0)
-        buffers.paths[buffers.slot(record)].etaScale = kUncovered;
-    if ((scene_.features & (kFeatureEnvironment | kFeatureEnvironmentMap | kFeatureBackground)) != 0)
+        buffers.path(record).etaScale = kUncovered;
+    if ((scene_.features & kEndsInKernels) != 0)
         return escapes_;
     // A throughput of NaN or infinity times the darkness: the film drops the sample.
-    buffers.radiance(record) += 0.0f * xyz(buffers.at(kPlaneThroughput, record));
+    buffers.path(record).radiance += 0.0f * xyz(buffers.at(kPlaneThroughput, record));
     return kEnded;
 }
 

@@ -20,14 +20,14 @@ namespace lavalight {
 struct RecordBuffers {
     std::span<const glm::uvec4> written; // kPlanesOut planes
     std::span<glm::uvec4> read;          // kPlanesIn planes
-    std::span<Path> paths;               // by slot; only their radiance is used
+    std::span<Path> paths;               // by slot; what accumulate reads of them is used
     std::span<PathLayers> layers;        // by slot; empty: none are recorded
     size_t stride = 0;                   // records from one plane to the next
 
     // What kernels wrote of a record.
     [[nodiscard]] const glm::uvec4& at(uint32_t plane, uint32_t record) const;
     [[nodiscard]] uint32_t slot(uint32_t record) const;
-    [[nodiscard]] glm::vec3& radiance(uint32_t record) const;
+    [[nodiscard]] Path& path(uint32_t record) const;
     // The surface that its rays start on, or kNoSurface: where the kernels found it.
     [[nodiscard]] SurfaceId surfaceBefore(uint32_t record) const;
 };

@@ -88,7 +88,7 @@ FrameParameters makeFrame(const Scene& scene, const Camera& camera, const Render
     frame.environmentLight = kNoLight;
     frame.environmentRotation = settings.lighting.rotation / 360.0f;
     frame.sceneCenter = scene.bounds.center();
-    frame.sceneRadius = scene.bounds.radius();
+    frame.sceneRadius = std::max(scene.bounds.radius(), scene.reach);
     frame.maxBounces = settings.estimator.maxBounces;
     frame.rouletteStart = settings.estimator.rouletteStart;
     frame.rouletteProbability = settings.estimator.rouletteProbability;
@@ -105,6 +105,9 @@ FrameParameters makeFrame(const Scene& scene, const Camera& camera, const Render
     frame.nextRight = next.right * nextView.halfWidth;
     frame.nextUp = next.up * nextView.halfHeight;
     frame.nextForward = next.forward;
+    frame.catchesShadows = settings.ground.kind == Ground::shadow ? 1u : 0u;
+    if (frame.catchesShadows != 0)
+        frame.groundHeight = scene.groundHeight;
     setStart(startingSolids(scene, camera, seen, clip.nearest), frame);
     return frame;
 }

@@ -44,6 +44,8 @@ Fingerprints fingerprintsOf(const Renderer& renderer) {
     parts.emplace_back("view",
                        hashOf(f.cameraPosition, f.projection, f.cameraUp, f.cameraForward, f.lensRadius,
                               f.focusDistance, f.clipNear, f.clipDepth, f.sceneCenter, f.sceneRadius));
+    if (f.catchesShadows != 0)
+        parts.emplace_back("ground", hashOf(f.groundHeight));
     parts.emplace_back("shaders", shadersOf(renderer));
     return parts;
 }

@@ -82,6 +82,7 @@ namespace {
 SceneFeatures viewFeatures(const Camera& camera, const FrameParameters& frame) {
     return cameraFeatures(camera) | (frame.startsVary != 0 ? kFeatureStartsVary : 0u) |
            (frame.hasBackground != 0 ? kFeatureBackground : 0u) |
+           (frame.catchesShadows != 0 ? kFeatureShadowCatcher : 0u) |
            (frame.hasLayers != 0 ? kFeatureLayers : 0u) | (frame.hasFilter != 0 ? kFeatureFilter : 0u) |
            (frame.cropStart != 0 || frame.cropWidth != frame.imageWidth ? kFeatureCrop : 0u);
 }

@@ -55,7 +55,10 @@ bool isForDenoising(uint32_t layers) {
 
 uint32_t filmPlanes(const RenderSettings& settings) {
     const bool hasCoverage = settings.background.kind == Background::transparent;
-    uint32_t planes = settings.layers | 1u << kColorPlane | (hasCoverage ? 1u << kCoveragePlane : 0u);
+    const bool catchesShadows = settings.ground.kind == Ground::shadow;
+    uint32_t planes = settings.layers | 1u << kColorPlane | (hasCoverage ? 1u << kCoveragePlane : 0u) |
+                      (catchesShadows ? 1u << kShadowPlane : 0u) |
+                      (catchesShadows && !hasCoverage ? 1u << kBehindPlane : 0u);
     for (uint32_t row = 0; row < kFilmPlaneCount; ++row)
         if ((settings.layers >> row & 1u) != 0 && kFilmPlanes[row].isPerHit != 0)
             planes |= 1u << kHitsPlane;
@@ -100,6 +103,10 @@ OptionPairs describe(const RenderSettings& settings) {
         add("background", "transparent");
     if (settings.background.kind == Background::constant)
         add("background", commaText(settings.background.radiance));
+    if (settings.ground.kind == Ground::lambert)
+        add("ground", fmt::format("#{:06x}", settings.ground.color));
+    if (settings.ground.kind == Ground::shadow)
+        add("ground", "shadow");
     // What is denoised may be asked for as a layer too, which changes no plane.
     const uint32_t asked =
         isForDenoising(settings.layers) ? settings.layers & ~kDenoisingLayers : settings.layers;

@@ -95,6 +95,19 @@ struct BackgroundSettings {
     bool operator==(const BackgroundSettings&) const = default;
 };
 
+// What lies below the scene.
+enum class Ground {
+    none,
+    lambert, // a surface, which is part of the scene (scene/ground.h)
+    shadow   // a plane at Scene::groundHeight that only camera rays see: its shadow is part of alpha
+};
+
+struct GroundSettings {
+    Ground kind = Ground::none;
+    uint32_t color = 0; // of Ground::lambert: sRGB signals, 0xrrggbb
+    bool operator==(const GroundSettings&) const = default;
+};
+
 // Where the render's inputs came from: for the record alone.
 struct Provenance {
     std::vector<std::string> changedShaders; // by --shaders
@@ -110,6 +123,7 @@ struct RenderSettings {
     WorkSettings work;
     LightingSettings lighting;
     BackgroundSettings background;
+    GroundSettings ground;
     uint32_t layers =
         0; // further layers: bit i for row i of FILM_PLANES, kObjectIds, kMaterialIds, kCryptomatte
     Provenance provenance;

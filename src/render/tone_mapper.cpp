@@ -21,8 +21,8 @@ float scaleOf(float exposureStops) {
 }
 
 // 0: there is no such plane; the colour has the first word.
-uint32_t coverageWordOf(const FilmLayout& layout) {
-    const std::optional<size_t> plane = layout.find(kCoveragePlane);
+uint32_t wordOf(const FilmLayout& layout, uint32_t row) {
+    const std::optional<size_t> plane = layout.find(row);
     return plane ? layout.firstWord(*plane) : 0;
 }
 
@@ -55,7 +55,11 @@ std::vector<uint32_t> ToneMapper::map(const Film& film, const ToneSettings& tone
     range.firstWord = layout.firstWord(plane);
     range.plane = layout.planes()[plane].shape;
     if (plane == kColorPlane)
-        range.coverageWord = coverageWordOf(layout);
+        range.coverageWord = wordOf(layout, kCoveragePlane);
+    if (plane == kColorPlane || layout.find(kEmissionPlane) == plane || layout.find(kDirectPlane) == plane) {
+        range.shadowWord = wordOf(layout, kShadowPlane);
+        range.behindWord = wordOf(layout, kBehindPlane);
+    }
     std::vector<uint32_t> pixels(size_t{film.width()} * film.height());
     for (const FilmBand& band : film.bands()) {
         const size_t first = size_t{band.firstRow} * film.width();
@@ -65,12 +69,14 @@ std::vector<uint32_t> ToneMapper::map(const Film& film, const ToneSettings& tone
     return pixels;
 }
 
-std::vector<uint32_t> ToneMapper::map(const Image& image, const Image* coverage, const ToneSettings& tone) {
-    constexpr uint32_t kWords = 4; // R, G, B, coverage
+std::vector<uint32_t> ToneMapper::map(const Image& image, const Image* coverage, const ToneSettings& tone,
+                                      const Image* shadow) {
+    constexpr uint32_t kWords = 5; // R, G, B, coverage, shadow
     ToneRange range = rangeOf(tone);
     range.isImage = 1;
     range.plane = shapeOf(kColorPlane, 0);
     range.coverageWord = coverage != nullptr ? 3 : 0;
+    range.shadowWord = shadow != nullptr ? 4 : 0;
     const size_t count = image.pixels.size();
     const uint64_t most = device_->limits().maxStorageBufferBytes / (kWords * sizeof(float));
     std::vector<uint32_t> pixels(count);
@@ -81,6 +87,7 @@ std::vector<uint32_t> ToneMapper::map(const Image& image, const Image* coverage,
             for (glm::length_t c = 0; c < 3; ++c)
                 words[static_cast<size_t>(c) * part + i] = image.pixels[first + i][c];
             words[3 * part + i] = coverage != nullptr ? coverage->pixels[first + i].x : 1.0f;
+            words[4 * part + i] = shadow != nullptr ? shadow->pixels[first + i].x : 0.0f;
         }
         gpu::Buffer buffer(*device_, "image", words.size() * sizeof(float), gpu::BufferUse::storage);
         buffer.upload(std::span<const float>(words));

@@ -31,9 +31,10 @@ class ToneMapper {
     [[nodiscard]] std::vector<uint32_t> map(const Film& film, const ToneSettings& tone,
                                             size_t plane = kColorPlane);
 
-    // Pixels of an image in the same way, with its coverage, of which x counts, or null. Values are finite.
+    // Pixels of an image in the same way, with its coverage, of which x counts, or null, and the part of its
+    // coverage that is shadow, or null. Values are finite.
     [[nodiscard]] std::vector<uint32_t> map(const Image& image, const Image* coverage,
-                                            const ToneSettings& tone);
+                                            const ToneSettings& tone, const Image* shadow = nullptr);
 
     // Whether the kernel's code is another by `source`. Throws Error as `source` does.
     [[nodiscard]] bool isChanged(const KernelSource& source) const;

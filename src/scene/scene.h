@@ -238,11 +238,13 @@ struct Scene {
     bool hasStandInLight = false; // that the caller brought unasked; it enters the bias ledger
     glm::vec3 environment{0.0f};  // constant radiance from every direction that hits nothing
     std::optional<EnvironmentMap> environmentMap; // instead of it
-    Bounds bounds;
-    std::vector<Solid> solids;            // findSolids() fills this and the next; the smallest bounds first
-    std::vector<std::string> openSolids;  // names of meshes that ought to bound a body and do not
-    std::optional<CoarseGeometry> coarse; // the worst of it, if there is any; it enters the bias ledger
-    std::vector<std::string> warnings;    // what was not understood, one line each, with names
+    Bounds bounds;                                // bounds of everything but a ground that --ground adds
+    float reach = 0.0f;        // distance from their centre that everything is within, where that is more
+    float groundHeight = 0.0f; // y of the ground that catches shadows, for renders where one does
+    std::vector<Solid> solids; // findSolids() fills this and the next; the smallest bounds first
+    std::vector<std::string> openSolids;        // names of meshes that ought to bound a body and do not
+    std::optional<CoarseGeometry> coarse;       // the worst of it, if there is any; it enters the bias ledger
+    std::vector<std::string> warnings;          // what was not understood, one line each, with names
     std::vector<std::string> ignoredExtensions; // exact names; they enter the bias ledger
     std::vector<std::string> extensionsUsed;    // exact names as the file lists them
     std::vector<std::string> variants;          // names of the material variants

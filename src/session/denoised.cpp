@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "film/film_layout.h"
+#include "film/film_shadow.h"
 
 namespace lavalight {
 namespace {
@@ -62,12 +63,12 @@ void spread(Image& image, std::vector<uint8_t> has) {
 
 // The image as if it were covered everywhere: values are divided by coverage and go on beyond edges, so that
 // these look like no edges of the scene.
-Image ofCovered(Image image, const Layer* coverage) {
-    if (coverage == nullptr)
+Image ofCovered(Image image, const std::optional<Image>& coverage) {
+    if (!coverage)
         return image;
     std::vector<uint8_t> has(image.pixels.size());
     for (size_t i = 0; i < image.pixels.size(); ++i) {
-        const float share = coverage->mean.pixels[i].x;
+        const float share = coverage->pixels[i].x;
         has[i] = share > 0.0f ? 1 : 0;
         image.pixels[i] = share > 0.0f ? image.pixels[i] / share : glm::vec3(0.0f);
     }
@@ -75,41 +76,101 @@ Image ofCovered(Image image, const Layer* coverage) {
     return image;
 }
 
-// Coverage where its 3 by 3 pixels are alike, and what a denoiser makes of it elsewhere: at edges, and behind
-// what is transparent by chance.
-Image denoisedCoverage(const Image& coverage, const DenoiseGuides& guides, const Denoiser& denoiser,
-                       DenoiseQuality quality) {
-    Image grey(coverage.width, coverage.height);
+// Shares where their 3 by 3 pixels are alike, and what a denoiser makes of them elsewhere: at edges, and
+// behind what is transparent by chance.
+Image denoisedShares(const Image& shares, const DenoiseGuides& guides, const Denoiser& denoiser,
+                     DenoiseQuality quality) {
+    Image grey(shares.width, shares.height);
     for (size_t i = 0; i < grey.pixels.size(); ++i)
-        grey.pixels[i] = glm::vec3(coverage.pixels[i].x);
+        grey.pixels[i] = glm::vec3(shares.pixels[i].x);
     Image clean = denoiser.denoise(grey, guides, quality, ImageKind::display);
-    for (uint32_t y = 0; y < coverage.height; ++y)
-        for (uint32_t x = 0; x < coverage.width; ++x) {
-            const float here = coverage.at(x, y).x;
+    for (uint32_t y = 0; y < shares.height; ++y)
+        for (uint32_t x = 0; x < shares.width; ++x) {
+            const float here = shares.at(x, y).x;
             bool isAlike = true;
-            for (uint32_t v = y - std::min(y, 1u); v <= std::min(y + 1, coverage.height - 1); ++v)
-                for (uint32_t u = x - std::min(x, 1u); u <= std::min(x + 1, coverage.width - 1); ++u)
-                    isAlike = isAlike && coverage.at(u, v).x == here;
-            glm::vec3& pixel = clean.pixels[size_t{y} * coverage.width + x];
+            for (uint32_t v = y - std::min(y, 1u); v <= std::min(y + 1, shares.height - 1); ++v)
+                for (uint32_t u = x - std::min(x, 1u); u <= std::min(x + 1, shares.width - 1); ++u)
+                    isAlike = isAlike && shares.at(u, v).x == here;
+            glm::vec3& pixel = clean.pixels[size_t{y} * shares.width + x];
             pixel = {isAlike ? here : std::clamp(pixel.x, 0.0f, 1.0f), 0.0f, 0.0f};
         }
     return clean;
+}
+
+// The largest x of the 3 by 3 pixels around one.
+float largestAround(const Image& image, uint32_t x, uint32_t y) {
+    float largest = 0.0f;
+    for (uint32_t v = y - std::min(y, 1u); v <= std::min(y + 1, image.height - 1); ++v)
+        for (uint32_t u = x - std::min(x, 1u); u <= std::min(x + 1, image.width - 1); ++u)
+            largest = std::max(largest, image.at(u, v).x);
+    return largest;
+}
+
+// The shadow on the ground alone. It goes on below the model, and pixels of the model's edge, where few
+// samples say something of it, take it from their neighbours. A guide of where the ground is keeps their
+// noise, which is then wider than a pixel, from passing for a shape.
+Image denoisedShadow(const Image& shadows, const Denoiser& denoiser, DenoiseQuality quality) {
+    Image shares(shadows.width, shadows.height);
+    std::vector<uint8_t> isGround(shadows.pixels.size());
+    for (uint32_t y = 0; y < shadows.height; ++y)
+        for (uint32_t x = 0; x < shadows.width; ++x) {
+            const glm::vec3& shadow = shadows.at(x, y);
+            const size_t i = size_t{y} * shadows.width + x;
+            isGround[i] = shadow.x > 0.5f * largestAround(shadows, x, y) ? 1 : 0;
+            shares.pixels[i].x = shadowShare(shadow);
+        }
+    DenoiseGuides guides{Image(shadows.width, shadows.height), Image(shadows.width, shadows.height)};
+    for (size_t i = 0; i < isGround.size(); ++i)
+        guides.albedo.pixels[i] = glm::vec3(isGround[i]);
+    spread(shares, std::move(isGround));
+    return denoisedShares(shares, guides, denoiser, quality);
+}
+
+// What clean shadows are of alpha. The share of the pixel that is ground follows the clean coverage.
+Image alphaOfShadow(const Image& shadows, const Image& clean, const Image& covered,
+                    const Image& cleanCovered) {
+    Image alpha(shadows.width, shadows.height);
+    for (size_t i = 0; i < alpha.pixels.size(); ++i) {
+        const float open = 1.0f - covered.pixels[i].x;
+        const float ground =
+            open > 0.0f ? shadows.pixels[i].x / open * (1.0f - cleanCovered.pixels[i].x) : 0.0f;
+        alpha.pixels[i].x = ground * clean.pixels[i].x;
+    }
+    return alpha;
+}
+
+// Gives light that is seen directly the clean shadow in the place of its own.
+void exchangeShadow(const Image& shadows, const Image& clean, const Image& behind, Image& light) {
+    for (size_t i = 0; i < light.pixels.size(); ++i) {
+        const float own = shadowShare(shadows.pixels[i]);
+        light.pixels[i] =
+            glm::max(light.pixels[i] + (own - clean.pixels[i].x) * behind.pixels[i], glm::vec3(0.0f));
+    }
 }
 
 } // namespace
 
 void denoise(Rendering& rendering, const Denoiser& denoiser, DenoiseQuality quality, uint32_t asked,
              bool isSharp) {
-    const Layer* coverage = rendering.find(kCoverageLayer);
+    const std::optional<Image> coverage = coverageWithoutShadow(rendering);
     const Image none(rendering.radiance().width, rendering.radiance().height);
-    const Image& keptLight = isSharp ? layerOf(rendering, kEmissionPlane) : none;
+    Image keptLight = isSharp ? layerOf(rendering, kEmissionPlane) : none;
     const DenoiseGuides guides{layerOf(rendering, kGuideAlbedoPlane), layerOf(rendering, kGuideNormalPlane)};
     Image image =
         denoiser.denoise(ofCovered(withoutEmission(rendering.radiance(), keptLight), coverage),
                          {ofCovered(guides.albedo, coverage), ofCovered(guides.normal, coverage)}, quality);
     std::optional<Image> alpha;
-    if (coverage != nullptr)
-        alpha = denoisedCoverage(coverage->mean, guides, denoiser, quality);
+    if (coverage)
+        alpha = denoisedShares(*coverage, guides, denoiser, quality);
+    std::optional<Image> shadow;
+    if (rendering.find(planeName(kShadowPlane)) != nullptr) {
+        const Image& shadows = layerOf(rendering, kShadowPlane);
+        const Image clean = denoisedShadow(shadows, denoiser, quality);
+        if (coverage)
+            shadow = alphaOfShadow(shadows, clean, *coverage, *alpha);
+        else if (isSharp)
+            exchangeShadow(shadows, clean, layerOf(rendering, kBehindPlane), keptLight);
+    }
     for (size_t i = 0; i < image.pixels.size(); ++i)
         image.pixels[i] = (alpha ? alpha->pixels[i].x : 1.0f) * image.pixels[i] + keptLight.pixels[i];
     for (const uint32_t row : {kEmissionPlane, kGuideAlbedoPlane, kGuideNormalPlane})
@@ -118,8 +179,14 @@ void denoise(Rendering& rendering, const Denoiser& denoiser, DenoiseQuality qual
     const std::string prefix = kDenoisedLayer;
     rendering.layers.push_back(
         {kDenoisedLayer, {prefix + ".R", prefix + ".G", prefix + ".B"}, std::move(image), std::nullopt});
+    if (alpha && shadow)
+        for (size_t i = 0; i < alpha->pixels.size(); ++i)
+            alpha->pixels[i].x = std::min(alpha->pixels[i].x + shadow->pixels[i].x, 1.0f);
     if (alpha)
         rendering.layers.push_back({kDenoisedCoverage, {kDenoisedCoverage}, std::move(*alpha), std::nullopt});
+    if (shadow)
+        rendering.layers.push_back(
+            {kDenoisedShadow, {std::string(kDenoisedShadow) + ".N"}, std::move(*shadow), std::nullopt});
 }
 
 } // namespace lavalight

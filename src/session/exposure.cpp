@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 
 #include <fmt/format.h>
 #include <glm/glm.hpp>
+
+#include "film/film_shadow.h"
 
 namespace lavalight {
 namespace {
@@ -24,12 +27,12 @@ double luminance(const glm::vec3& color) {
 } // namespace
 
 float autoExposure(const Rendering& rendering) {
-    const Layer* coverage = rendering.find(kCoverageLayer);
+    const std::optional<Image> coverage = coverageWithoutShadow(rendering);
     const std::vector<glm::vec3>& pixels = rendering.radiance().pixels;
     double sum = 0.0;
     double weights = 0.0;
     for (size_t i = 0; i < pixels.size(); ++i) {
-        const double weight = coverage != nullptr ? coverage->mean.pixels[i].x : 1.0;
+        const double weight = coverage ? coverage->pixels[i].x : 1.0;
         const double light = luminance(pixels[i]);
         if (!(weight > 0.0) || !(light > 0.0))
             continue;

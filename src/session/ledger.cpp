@@ -21,6 +21,9 @@ std::vector<LedgerEntry> makeLedger(const Scene& scene, const RenderSettings& se
     if (!estimator.nextEventEstimation && !scene.punctualLights.empty())
         ledger.push_back({"unreachable-lights", fmt::format("--nee off cannot find {} lights without size",
                                                             scene.punctualLights.size())});
+    if (settings.ground.kind == Ground::shadow)
+        ledger.push_back({"shadow-catcher", "the shadow on the ground is a ratio of two sums, which tends to "
+                                            "its mean as samples are added"});
     if (stop == StopReason::targetError)
         ledger.push_back(
             {"stopped-on-estimate", fmt::format("the error estimate reached {}", settings.stop.targetError)});

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cctype>
 #include <filesystem>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "base/log.h"
 #include "base/os/file_lock.h"
 #include "base/version.h"
+#include "film/film_shadow.h"
 #include "film/id_layers.h"
 #include "image/exr.h"
 #include "image/png.h"
@@ -52,6 +54,12 @@ void addPartsOfStages(RenderReport& report, const RenderJob& job) {
     report.stages.emplace_back("prepareKernels", job.renderer->kernels().seconds());
     if (job.toFirstSamples)
         report.stages.emplace_back("processToFirstSamples", *job.toFirstSamples);
+}
+
+// The layer of that name, or null.
+const Image* meanOf(const Rendering& rendering, const char* name) {
+    const Layer* layer = rendering.find(name);
+    return layer != nullptr ? &layer->mean : nullptr;
 }
 
 // What comes into being.
@@ -140,13 +148,13 @@ void writeOutputs(RenderJob& job, const Outputs& outputs, OutputStyle& style, To
             style.tone.exposure = autoExposure(rendering);
         report.tone = style.tone;
         const Layer* denoised = rendering.find(kDenoisedLayer);
-        const Layer* coverage = rendering.find(denoised != nullptr ? kDenoisedCoverage : kCoverageLayer);
         const std::vector<uint32_t> pixels =
-            denoised != nullptr
-                ? toneMapper->map(denoised->mean, coverage != nullptr ? &coverage->mean : nullptr, style.tone)
-                : toneMapper->map(job.renderer->film(), style.tone);
+            denoised != nullptr ? toneMapper->map(denoised->mean, meanOf(rendering, kDenoisedCoverage),
+                                                  style.tone, meanOf(rendering, kDenoisedShadow))
+                                : toneMapper->map(job.renderer->film(), style.tone);
+        const std::optional<Image> coverage = coverageWithoutShadow(rendering);
         const bool isDark = !job.scene.environmentMap && !report.settings.lighting.constant;
-        warn(report, extremesText(pixels, coverage != nullptr ? &coverage->mean : nullptr,
+        warn(report, extremesText(pixels, coverage ? &*coverage : nullptr,
                                   fmt::format("{}{}{}", exposesByImage ? "" : "--exposure auto",
                                               !exposesByImage && isDark ? ", or " : "",
                                               isDark ? "--env studio" : "")));

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "compare/comparison.h"
@@ -152,15 +153,16 @@ TEST_F(FilmTest, NegativeRadianceIsCountedAndTakenForZero) {
 // what the film does for any layer.
 class SignedLayerTest : public FilmTest {
   protected:
-    static constexpr uint32_t kLean = 10; // the row
+    static constexpr uint32_t kLean = kFilmPlaneCount; // the row
     // x - y and -z of the radiance.
     [[nodiscard]] static gpu::KernelCode leaningKernel(bool hasSquares) {
-        const std::string row = R"("guide-normal.X,guide-normal.Y,guide-normal.Z", 3u, 1u, 0u, 0u))";
-        const std::string added = hasSquares ? R"( PLANE(10u, "lean", "lean.X,lean.Y", 2u, 1u, 1u, 0u))"
-                                             : R"( PLANE(10u, "lean", "lean.X,lean.Y", 2u, 1u, 0u, 0u))";
+        const std::string row = R"("behind.R,behind.G,behind.B", 3u, 0u, 0u, 0u))";
+        const std::string added = fmt::format(R"( PLANE({}u, "lean", "lean.X,lean.Y", 2u, 1u, {}u, 0u))",
+                                              kLean, hasSquares ? 1 : 0);
         const std::string fill = "    return paths[slot].radiance;";
-        const std::string line = "    if (plane == 10u) return vec3(paths[slot].radiance.x - "
-                                 "paths[slot].radiance.y, -paths[slot].radiance.z, 0.0);\n";
+        const std::string line = fmt::format("    if (plane == {}u) return vec3(paths[slot].radiance.x - "
+                                             "paths[slot].radiance.y, -paths[slot].radiance.z, 0.0);\n",
+                                             kLean);
         return patchedKernel("accumulate", {{"shared/film.h", row, row + added},
                                             {"kernels/accumulate.comp", fill, line + fill}});
     }

@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include "film/film_shadow.h"
 #include "render/renderer.h"
 #include "render/setting_names.h"
 #include "session/builtin.h"
@@ -125,6 +126,52 @@ TEST_F(ToneMapperTest, AlphaIsStraightAndABackdropArrivesAsGivenFromFilmAndImage
         partly += alpha > 0.0 && alpha < 1.0 ? 1 : 0;
     }
     EXPECT_GT(partly, 200u);
+}
+
+// A pane of which a half is there, above a ground in the shadow of a lid: the pane's half is white, and what
+// the lid leaves of the backdrop comes through the other.
+TEST_F(ToneMapperTest, ShadowsAreBlackBesideTheCurveFromFilmAndImageAlike) {
+    Material pane = light(glm::vec3(0.5f));
+    pane.alphaMode = AlphaMode::blend;
+    pane.alpha = 0.5f;
+    Scene scene = SceneBuilder()
+                      .add(rectangle({0, 2, 4}, {9, 0, 0}, {0, 2, 0}), pane)
+                      .add(rectangle({-50, 90, 0}, {50, 0, 0}, {0, 0, 50}), lambert(glm::vec3(0.5f)))
+                      .camera(lookAtOrthographic({0, 4, 8}, {0, 0, 0}, 1.0f))
+                      .build();
+    PunctualLight overhead;
+    overhead.kind = PunctualKind::directional;
+    overhead.direction = {0, -1, 0};
+    scene.punctualLights.push_back(overhead);
+    RenderSettings settings = imageSettings(64, 16, 16);
+    settings.ground.kind = Ground::shadow;
+    const ToneSettings tone{ToneCurve::linear, 1.0f, glm::vec3(1.0f, 0.0f, 0.0f)}; // 0.5 shines as 1
+    for (const Background kind : {Background::transparent, Background::constant}) {
+        settings.background = {kind, glm::vec3(0.5f, 0.0f, 0.0f)};
+        Renderer renderer(device(), scene, scene.cameras.front(), settings);
+        renderer.render([](double) { return true; });
+        const Rendering rendering = renderer.rendering();
+        const Image& shadow = rendering.find("shadow")->mean;
+        Image alphas(64, 16);
+        for (size_t i = 0; i < alphas.pixels.size(); ++i)
+            alphas.pixels[i].x = shadowAlpha(shadow.pixels[i]);
+        const Layer* coverage = rendering.find(kCoverageLayer);
+        const std::vector<uint32_t> pixels = mapper_.map(renderer.film(), tone);
+        EXPECT_EQ(mapper_.map(rendering.radiance(), coverage != nullptr ? &coverage->mean : nullptr, tone,
+                              coverage != nullptr ? &alphas : nullptr),
+                  pixels);
+        size_t partly = 0;
+        for (size_t i = 0; i < pixels.size(); ++i) {
+            const double white = 1.0 - shadow.pixels[i].x;
+            const double behind = shadow.pixels[i].x - alphas.pixels[i].x;
+            const glm::dvec3 signal = srgbSignal(glm::dvec3(white + behind, white, white));
+            ASSERT_NEAR(pixels[i] & 0xffu, 255.0 * signal.x, 0.52) << i;
+            ASSERT_NEAR(pixels[i] >> 8 & 0xffu, 255.0 * signal.y, 0.52) << i;
+            partly += alphas.pixels[i].x > 0.0f && white > 0.0 ? 1 : 0;
+        }
+        EXPECT_GT(partly, 200u);
+        EXPECT_LT(partly, 600u); // the right half is lit
+    }
 }
 
 } // namespace

@@ -158,6 +158,46 @@ TEST_F(Denoise, SmoothsCoverageThatIsNoisyAndKeepsItsMean) {
     EXPECT_EQ(rendering.find(kDenoisedCoverage)->mean.at(2, 2).x, 0.0f);
 }
 
+// Errors of what is seen through the shadow, and of alpha, against 1024 samples.
+TEST_F(Denoise, CleansShadowsOnTheGround) {
+    Scene scene = SceneBuilder()
+                      .add(ball({0, 1, 0}, 1.0f), lambert({0.8f, 0.4f, 0.3f}))
+                      .environment({0.6f, 0.7f, 1.0f})
+                      .camera(lookAt({0.5f, 3, 6}, {0, 0.5f, 0}, 0.7f))
+                      .build();
+    for (const Background background : {Background::transparent, Background::environment}) {
+        RenderSettings settings = imageSettings(96, 96, 16);
+        settings.layers = kDenoisingLayers;
+        settings.background.kind = background;
+        settings.ground.kind = Ground::shadow;
+        const auto render = [&](uint32_t samples) {
+            settings.stop.samples = samples;
+            return renderScene(device(), scene, settings).rendering;
+        };
+        const Rendering reference = render(1024);
+        Rendering rendering = render(16);
+        denoise(rendering, *denoiser_, DenoiseQuality::high, 0, true);
+        const auto error = [&](const char* layer, const char* of) {
+            double sum = 0.0;
+            for (size_t i = 0; i < reference.radiance().pixels.size(); ++i) {
+                const float ground = reference.find("shadow")->mean.pixels[i].x;
+                if (ground == 1.0f)
+                    sum += std::pow(
+                        rendering.find(layer)->mean.pixels[i].x - reference.find(of)->mean.pixels[i].x, 2.0);
+            }
+            return sum;
+        };
+        if (background == Background::transparent) {
+            EXPECT_LT(error(kDenoisedCoverage, "coverage"), 0.3 * error("coverage", "coverage"));
+            EXPECT_LE(rendering.find(kDenoisedShadow)->mean.at(48, 48).x,
+                      rendering.find(kDenoisedCoverage)->mean.at(48, 48).x);
+        } else {
+            EXPECT_LT(error(kDenoisedLayer, "color"), 0.3 * error("color", "color"));
+            EXPECT_EQ(rendering.find(kDenoisedShadow), nullptr);
+        }
+    }
+}
+
 TEST_F(Denoise, GivesEqualBitsEachTime) {
     const Image size(96, 64);
     const Scene scene = loadScene("cornell-glass");

@@ -90,9 +90,9 @@ RenderResult renderScene(gpu::Device& device, const Scene& scene, const RenderSe
     return resultOf(renderer);
 }
 
-std::vector<uint32_t> sumOfFilms(const std::vector<uint32_t>& a, const std::vector<uint32_t>& b) {
+std::vector<uint32_t> sumOfFilms(const std::vector<uint32_t>& a, const std::vector<uint32_t>& b,
+                                 const FilmLayout& layout) {
     std::vector<uint32_t> sum = a;
-    const FilmLayout& layout = colorLayout();
     for (size_t pixel = 0; pixel < sum.size(); pixel += layout.words()) {
         for (const FilmNumber& number : layout.numbers())
             addWords(&sum[pixel + number.firstWord], &b[pixel + number.firstWord], number.words);

@@ -41,8 +41,8 @@ struct RenderResult {
 [[nodiscard]] double shareThatDiffers(const Rendering& a, const Rendering& b);
 
 // Words of the film that both films' samples together would have left behind.
-[[nodiscard]] std::vector<uint32_t> sumOfFilms(const std::vector<uint32_t>& a,
-                                               const std::vector<uint32_t>& b);
+[[nodiscard]] std::vector<uint32_t> sumOfFilms(const std::vector<uint32_t>& a, const std::vector<uint32_t>& b,
+                                               const FilmLayout& layout = colorLayout());
 
 struct ImageMean {
     glm::dvec3 mean{0.0};

@@ -12,8 +12,23 @@ void main() {
     const Ray ray = readRay(record);
     Path path = readPath(record);
     path.bsdfPdf = pdfOfFinding(ray, path.bsdfPdf);
-    writePlane(kPlaneOrigin, record, vec3(0.0), slotOfRecord(record) | kRecordEmits);
     const vec3 found = escape(ray, range.bounce, path);
     writePlane(kPlaneEmitted, record, found, 0u);
-    recordEmission(slotOfRecord(record), range.bounce, found);
+    const uint slot = slotOfRecord(record);
+    recordEmission(slot, range.bounce, found);
+
+    uint flags = kRecordEmits;
+    ShadowRay shadow;
+    shadow.origin = vec3(0.0);
+    if (meetsGround(ray, range.bounce)) {
+        flags |= kRecordIsCaught;
+        if (catchLight(ray, slot, path, shadow)) {
+            flags |= kRecordHasShadowRay;
+            writePlane(kPlaneShadow, record, shadow.direction, shadow.toSurface.primitive);
+            if (recordsHave(kRecordShadowOrigin))
+                writePlane(kPlaneShadowOrigin, record, shadow.origin, 0u);
+        }
+        writePlane(kPlaneContribution, record, path.throughput, 0u);
+    }
+    writePlane(kPlaneOrigin, record, shadow.origin, slot | flags);
 }

@@ -149,6 +149,19 @@ TEST(Settings, DescriptionNamesEveryOptionWithItsValue) {
     EXPECT_EQ(options.at("env"), "0.5,1,2.25");
 }
 
+TEST(Settings, GroundIsNamedAndBringsThePlanesOfItsShadow) {
+    RenderSettings settings = goodSettings();
+    EXPECT_EQ(described(settings).count("ground"), 0u);
+    settings.ground = {Ground::lambert, 0x0a80ff};
+    EXPECT_EQ(described(settings).at("ground"), "#0a80ff");
+    EXPECT_EQ(filmPlanes(settings), 1u << kColorPlane);
+    settings.ground = {Ground::shadow, 0};
+    EXPECT_EQ(described(settings).at("ground"), "shadow");
+    EXPECT_EQ(filmPlanes(settings), 1u << kColorPlane | 1u << kShadowPlane | 1u << kBehindPlane);
+    settings.background.kind = Background::transparent;
+    EXPECT_EQ(filmPlanes(settings), 1u << kColorPlane | 1u << kCoveragePlane | 1u << kShadowPlane);
+}
+
 TEST(Settings, DescriptionNamesTheMapAndHowItIsUsed) {
     RenderSettings settings = goodSettings();
     settings.lighting.mapFile = "garden.hdr";

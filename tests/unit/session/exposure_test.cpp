@@ -31,6 +31,17 @@ TEST(AutoExposure, LeavesOutBlackAndWhatIsNotCovered) {
     EXPECT_NEAR(autoExposure(image), -1.0f, 1e-6f);
 }
 
+TEST(AutoExposure, LeavesOutShadowsOnTheGround) {
+    Rendering image = imageOf({glm::vec3(0.36f), glm::vec3(0.09f)});
+    Image coverage(2, 1);
+    coverage.pixels = {glm::vec3(1.0f), glm::vec3(0.75f)}; // the second is 0.36, by a quarter
+    Image shadow(2, 1);
+    shadow.pixels[1] = {0.75f, 3.0f, 1.0f};
+    image.layers.push_back({"coverage", {"A"}, coverage, std::nullopt});
+    image.layers.push_back({"shadow", {"shadow.N", "shadow.lit", "shadow.visible"}, shadow, std::nullopt});
+    EXPECT_NEAR(autoExposure(image), -1.0f, 1e-6f);
+}
+
 TEST(Extremes, AreToldOfMoreThanHalfOfWhatIsShown) {
     constexpr uint32_t kWhite = 0xffffffff;
     constexpr uint32_t kBlack = 0xff000000;

@@ -51,6 +51,16 @@ TEST(Ledger, NamesEveryCauseWithItsFigures) {
     EXPECT_EQ(text.find('\n'), std::string::npos) << text;
 }
 
+TEST(Ledger, ShadowsOnTheGroundAreARatio) {
+    RenderSettings settings;
+    settings.ground.kind = Ground::lambert;
+    EXPECT_TRUE(makeLedger(Scene(), settings, FilmTallies(), StopReason::samples).empty());
+    settings.ground.kind = Ground::shadow;
+    const auto ledger = makeLedger(Scene(), settings, FilmTallies(), StopReason::samples);
+    ASSERT_EQ(ledger.size(), 1u);
+    EXPECT_EQ(ledger.front().cause, "shadow-catcher");
+}
+
 TEST(Ledger, OneCauseIsOneEntry) {
     FilmTallies tallies;
     tallies.droppedSamples = 3;
