@@ -5,11 +5,21 @@
 #include <cmath>
 #include <cstdint>
 
+#include <glm/glm.hpp>
+
 namespace lavalight {
 
 // The linear value in [0, 1] of a signal in [0, 1].
 [[nodiscard]] inline double decodeSrgb(double signal) {
     return signal <= 0.04045 ? signal / 12.92 : std::pow((signal + 0.055) / 1.055, 2.4);
+}
+
+// The linear colour of signals 0xrrggbb.
+[[nodiscard]] inline glm::vec3 decodeSrgb8(uint32_t signals) {
+    const auto channel = [&](uint32_t shift) {
+        return static_cast<float>(decodeSrgb((signals >> shift & 0xffu) / 255.0));
+    };
+    return {channel(16), channel(8), channel(0)};
 }
 
 // The nearest of 256 signals; what lies outside [0, 1] is clamped, NaN is black.

@@ -9,7 +9,9 @@
 #include "base/error.h"
 #include "gltf/import.h"
 #include "image/environment_file.h"
+#include "image/srgb.h"
 #include "render/setting_names.h"
+#include "scene/ground.h"
 #include "scene/procedural/sky_environment.h"
 #include "scene/procedural/studio_environment.h"
 #include "session/builtin.h"
@@ -57,6 +59,16 @@ Scene loadLitScene(const std::string& nameOrPath, const ImportOptions& options,
     if (lighting.rotation != 0.0f && !scene.environmentMap)
         throw UsageError("--env-rotation: cannot turn the environment: it is not a map; try --env studio");
     return scene;
+}
+
+double groundHeightOf(const Scene& scene) {
+    return scene.origin.y + double{groundHeight(scene.bounds)};
+}
+
+void layGround(const GroundSettings& ground, double height, Scene& scene) {
+    scene.groundHeight = static_cast<float>(height - scene.origin.y);
+    if (ground.kind == Ground::lambert)
+        addGround(scene, scene.groundHeight, decodeSrgb8(ground.color));
 }
 
 InputFiles filesOfLitScene(const std::string& nameOrPath, const LightingSettings& lighting) {

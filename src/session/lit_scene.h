@@ -1,4 +1,4 @@
-// Scenes together with the light that a render brings.
+// Scenes together with the light and the ground that a render brings.
 #pragma once
 
 #include <string>
@@ -16,6 +16,12 @@ namespace lavalight {
 // rotation where there is no map.
 [[nodiscard]] Scene loadLitScene(const std::string& nameOrPath, const ImportOptions& options,
                                  const LightingSettings& lighting);
+
+// The height of the ground that belongs right below the scene, in the world.
+[[nodiscard]] double groundHeightOf(const Scene& scene);
+
+// Lays the ground that was asked for at a height in the world. What frames the scene comes before it.
+void layGround(const GroundSettings& ground, double height, Scene& scene);
 
 // The files that loadLitScene would read: scene, buffers, pictures, map.
 [[nodiscard]] InputFiles filesOfLitScene(const std::string& nameOrPath, const LightingSettings& lighting);

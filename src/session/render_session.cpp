@@ -9,6 +9,7 @@
 #include "image/png.h"
 #include "render/schedule_choice.h"
 #include "scene/clipping.h"
+#include "scene/ground.h"
 #include "scene/view_extent.h"
 #include "scene/world_position.h"
 #include "session/builtin.h"
@@ -36,10 +37,12 @@ float aspectOf(const ImageSettings& image) {
     return image.width > 0 ? static_cast<float>(image.width) / static_cast<float>(image.height) : kDefault;
 }
 
-PreparedScene complete(Scene scene, const Camera& camera, const RenderSettings& settings) {
+PreparedScene complete(Scene scene, const Camera& camera, const RenderSettings& settings,
+                       double groundHeight) {
     PreparedScene prepared{std::move(scene), camera, resolveSize(settings, camera)};
     checkSettings(prepared.settings);
     warnOfFarPlane(prepared);
+    layGround(prepared.settings.ground, groundHeight, prepared.scene);
     return prepared;
 }
 
@@ -61,7 +64,8 @@ void logNotes(const Scene& scene, const RenderPlan& plan) {
 PreparedScene prepareScene(const RenderPlan& plan, const ImportOptions& moment) {
     Scene scene = loadScene(plan, moment);
     const Camera camera = chooseCamera(scene, plan.camera, aspectOf(plan.settings.image));
-    PreparedScene prepared = complete(std::move(scene), camera, plan.settings);
+    const double ground = groundHeightOf(scene);
+    PreparedScene prepared = complete(std::move(scene), camera, plan.settings, ground);
     logNotes(prepared.scene, plan);
     return prepared;
 }
@@ -87,13 +91,17 @@ Camera RenderSession::cameraOf(const Scene& scene, const CameraChoice& choice) c
 }
 
 void RenderSession::loadNext(Scene& scene, const NextMoment& next) const {
-    const Scene later = loadScene(plan_, next.moment);
+    Scene later = loadScene(plan_, next.moment);
     CameraChoice choice = plan_.camera;
     choice.turns = next.turns;
-    scene.next = nextFrameOf(scene, later, cameraOf(later, choice));
+    const Camera camera = cameraOf(later, choice);
+    if (plan_.settings.ground.kind == Ground::lambert)
+        copyGround(scene, later);
+    scene.next = nextFrameOf(scene, later, camera);
 }
 
-// The first scene of an animation speaks for all: its warnings, its stand-in camera, its image's size.
+// The first scene of an animation speaks for all: its warnings, its stand-in camera, its ground, its image's
+// size.
 PreparedScene RenderSession::load(const ImportOptions& moment) {
     Scene scene = loadScene(plan_, moment);
     const bool frames = plan_.camera.view != NamedView::none || !scene.hasOwnCamera;
@@ -102,7 +110,9 @@ PreparedScene RenderSession::load(const ImportOptions& moment) {
         standIn_ = camera;
         standInOrigin_ = scene.origin;
     }
-    PreparedScene prepared = complete(std::move(scene), camera, plan_.settings);
+    if (!groundHeight_)
+        groundHeight_ = groundHeightOf(scene);
+    PreparedScene prepared = complete(std::move(scene), camera, plan_.settings, *groundHeight_);
     if (!std::exchange(isWarned_, true))
         logNotes(prepared.scene, plan_);
     plan_.settings = prepared.settings;

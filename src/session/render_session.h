@@ -89,9 +89,10 @@ class RenderSession {
     RenderPlan plan_;
     KernelSource source_ = embeddedKernel;
     std::optional<Camera> standIn_;
-    glm::dvec3 standInOrigin_{0.0}; // the origin of the scene that it is about
-    bool isWarned_ = false;         // whether the warnings of a scene are told
-    bool isToldWhatTraces_ = false; // whether it is told why the schedule is not hosted
+    glm::dvec3 standInOrigin_{0.0};      // the origin of the scene that it is about
+    std::optional<double> groundHeight_; // in the world
+    bool isWarned_ = false;              // whether the warnings of a scene are told
+    bool isToldWhatTraces_ = false;      // whether it is told why the schedule is not hosted
     std::optional<gpu::Device> ownDevice_;
     gpu::Device* device_ = nullptr; // null: not opened yet
     std::optional<EstimatorKernels> kernels_;

@@ -35,8 +35,8 @@ void printSummary(const RenderReport& report) {
 
 RenderCommand::RenderCommand(CLI::App& app)
     : Command(app, "render", "Render a scene to an image"), options_(parser()), sceneOptions_(parser()),
-      frames_(parser()), shaders_(parser()), tone_(parser()), background_(parser()), layers_(parser()),
-      denoise_(parser()), checkpoints_(parser()) {
+      frames_(parser()), shaders_(parser()), tone_(parser()), background_(parser()), ground_(parser()),
+      layers_(parser()), denoise_(parser()), checkpoints_(parser()) {
     shaders_.declareWatch(parser());
     parser()
         .add_option("input", scene_,
@@ -79,6 +79,7 @@ std::optional<PixelWindow> RenderCommand::crop() const {
 RenderPlan RenderCommand::plan() const {
     RenderPlan plan = options_.plan(scene_);
     plan.settings.background = background_.settings();
+    plan.settings.ground = ground_.settings();
     plan.settings.layers = layers_.layers();
     plan.settings.image.crop = this->crop();
     if (frames_.isTurntable() && plan.camera.view == NamedView::none)

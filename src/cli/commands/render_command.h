@@ -11,6 +11,7 @@
 #include "cli/options/checkpoint_options.h"
 #include "cli/options/denoise_options.h"
 #include "cli/options/frame_options.h"
+#include "cli/options/ground_options.h"
 #include "cli/options/layer_options.h"
 #include "cli/options/render_options.h"
 #include "cli/options/scene_options.h"
@@ -54,6 +55,7 @@ class RenderCommand : public Command {
     ShaderOptions shaders_;
     ToneOptions tone_;
     BackgroundOptions background_;
+    GroundOptions ground_;
     LayerOptions layers_;
     DenoiseOptions denoise_;
     CheckpointOptions checkpoints_;

@@ -1,8 +1,5 @@
 #include "cli/options/background_options.h"
 
-#include <algorithm>
-#include <cctype>
-
 #include <fmt/format.h>
 
 #include "base/error.h"
@@ -10,18 +7,6 @@
 #include "image/srgb.h"
 
 namespace lavalight {
-namespace {
-
-// #rrggbb
-std::optional<uint32_t> parseHexColor(const std::string& text) {
-    const auto isDigit = [](unsigned char c) { return std::isxdigit(c) != 0; };
-    if (text.size() != 7 || text[0] != '#' || !std::all_of(text.begin() + 1, text.end(), isDigit))
-        return std::nullopt;
-    return static_cast<uint32_t>(std::stoul(text.substr(1), nullptr, 16));
-}
-
-} // namespace
-
 BackgroundOptions::BackgroundOptions(CLI::App& parser) {
     parser
         .add_option(
@@ -50,10 +35,7 @@ std::optional<glm::vec3> BackgroundOptions::backdrop() const {
     const std::optional<uint32_t> color = parseHexColor(background_);
     if (!color)
         return std::nullopt;
-    const auto channel = [&](uint32_t shift) {
-        return static_cast<float>(decodeSrgb((*color >> shift & 0xffu) / 255.0));
-    };
-    return glm::vec3(channel(16), channel(8), channel(0));
+    return decodeSrgb8(*color);
 }
 
 } // namespace lavalight

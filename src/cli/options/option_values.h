@@ -1,7 +1,8 @@
-// Lists of numbers in the texts of options.
+// Lists of numbers, and colours, in the texts of options.
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -13,6 +14,9 @@
 namespace lavalight {
 
 [[nodiscard]] std::vector<std::string_view> splitAt(std::string_view text, char separator);
+
+// 0xrrggbb of "#rrggbb", or nothing.
+[[nodiscard]] std::optional<uint32_t> parseHexColor(std::string_view text);
 
 // The vector that "X,Y,Z" stands for, all finite in single precision, or nothing.
 template <typename Number>
