@@ -156,7 +156,7 @@ class SignedLayerTest : public FilmTest {
     static constexpr uint32_t kLean = kFilmPlaneCount; // the row
     // x - y and -z of the radiance.
     [[nodiscard]] static gpu::KernelCode leaningKernel(bool hasSquares) {
-        const std::string row = R"("behind.R,behind.G,behind.B", 3u, 0u, 0u, 0u))";
+        const std::string row = R"("behind.R,behind.G,behind.B", 3u, kWeighted, 0u, 0u))";
         const std::string added = fmt::format(R"( PLANE({}u, "lean", "lean.X,lean.Y", 2u, 1u, {}u, 0u))",
                                               kLean, hasSquares ? 1 : 0);
         const std::string fill = "    return paths[slot].radiance;";

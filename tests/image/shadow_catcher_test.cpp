@@ -1,5 +1,6 @@
 // The ground that catches shadows, in every schedule: shadows with a closed form, and what they leave alone.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -198,6 +199,30 @@ TEST_F(ShadowCatcher, ModelAndLitGroundKeepTheirBits) {
     }
 }
 
+// Sums of a filter with negative lobes have signs.
+TEST_F(ShadowCatcher, FilteredShadowsAreBetweenNoneAndAll) {
+    constexpr std::array kPlaces{0.0f, 0.9f, 1.2f};
+    for (const Schedule schedule : schedulesOf(device())) {
+        std::vector<double> alphas;
+        for (const PixelFilter filter : {PixelFilter::box, PixelFilter::mitchell})
+            for (const float x : kPlaces) {
+                RenderSettings of = settings(schedule, Background::transparent, Ground::shadow);
+                of.estimator.pixelFilter = filter;
+                Scene scene = withBall(0.5f, x).environment(glm::vec3(1.0f)).build();
+                scene.punctualLights.push_back(pointLight({0, 4, 0}, 40.0f));
+                alphas.push_back(0.0);
+                for (const glm::vec3& pixel :
+                     renderScene(device(), scene, of).rendering.find("coverage")->mean.pixels) {
+                    EXPECT_GE(pixel.x, 0.0f);
+                    EXPECT_LE(pixel.x, 1.0f);
+                    alphas.back() += pixel.x / (kSide * kSide);
+                }
+            }
+        for (size_t i = 0; i < kPlaces.size(); ++i)
+            EXPECT_NEAR(alphas[kPlaces.size() + i], alphas[i], 0.02) << kPlaces[i];
+    }
+}
+
 // What is seen of a background through shadows is what they leave of it; so is the layer of what is seen
 // directly.
 TEST_F(ShadowCatcher, BackgroundsAreDarkenedByAlpha) {
@@ -206,7 +231,7 @@ TEST_F(ShadowCatcher, BackgroundsAreDarkenedByAlpha) {
         RenderSettings of = settings(schedule, Background::transparent, Ground::shadow);
         of.image = {48, 48};
         of.stop.samples = 32;
-        of.layers = 1u << kEmissionPlane;
+        of.layers = 1u << kEmissionPlane | 1u << kDirectPlane;
         const Rendering open = renderScene(device(), still(), of).rendering;
         for (const auto& [kind, radiance] :
              {std::pair(Background::constant, kBlue), std::pair(Background::environment, kSky)}) {
@@ -219,6 +244,8 @@ TEST_F(ShadowCatcher, BackgroundsAreDarkenedByAlpha) {
                     ASSERT_NEAR(seen.radiance().pixels[i][c], open.radiance().pixels[i][c] + through[c],
                                 3e-6f);
                     ASSERT_NEAR(seen.find("emission")->mean.pixels[i][c], through[c], 3e-6f);
+                    ASSERT_NEAR(seen.find("direct")->mean.pixels[i][c],
+                                open.find("direct")->mean.pixels[i][c] + through[c], 3e-6f);
                 }
             }
         }
