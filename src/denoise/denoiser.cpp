@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -30,6 +31,8 @@ constexpr int kFloat3 = 3;
 constexpr int kQualityFast = 4;
 constexpr int kQualityBalanced = 5;
 constexpr int kQualityHigh = 6;
+constexpr int kCancelled = 6; // of errors
+using Monitor = bool (*)(void*, double);
 
 int qualityOf(DenoiseQuality quality) {
     switch (quality) {
@@ -122,6 +125,8 @@ struct Denoiser::Library {
                     bool) = file.function<void(Filter*, const char*, bool)>("oidnSetFilterBool");
     void (*setInt)(Filter*, const char*,
                    int) = file.function<void(Filter*, const char*, int)>("oidnSetFilterInt");
+    void (*setMonitor)(Filter*, Monitor, void*) =
+        file.function<void(Filter*, Monitor, void*)>("oidnSetFilterProgressMonitorFunction");
     void (*commitFilter)(Filter*) = file.function<void(Filter*)>("oidnCommitFilter");
     void (*execute)(Filter*) = file.function<void(Filter*)>("oidnExecuteFilter");
     void (*releaseFilter)(Filter*) = file.function<void(Filter*)>("oidnReleaseFilter");
@@ -135,11 +140,14 @@ struct Denoiser::Library {
             releaseDevice(device);
     }
 
-    void requireNoError() const {
+    // Throws Error; false: it was given up.
+    bool requireNoError() const {
         const char* message = nullptr;
-        if (error(device, &message) != 0)
+        const int code = error(device, &message);
+        if (code != 0 && code != kCancelled)
             throw Error(fmt::format("cannot denoise: {}",
                                     message != nullptr ? message : "Open Image Denoise failed"));
+        return code == 0;
     }
 
     // A filter for ray-traced images, released at the end.
@@ -154,20 +162,25 @@ struct Denoiser::Library {
         setImage(filter, name, pixels, kFloat3, image.width, image.height, 0, 0, 0);
     }
 
-    void run(Filter* filter, DenoiseQuality quality) const {
+    // False: `keepGoing` gave it up.
+    [[nodiscard]] bool run(Filter* filter, DenoiseQuality quality, const KeepGoing& keepGoing) const {
         setInt(filter, "quality", qualityOf(quality));
+        if (keepGoing)
+            setMonitor(
+                filter, [](void* asked, double) { return (*static_cast<const KeepGoing*>(asked))(); },
+                const_cast<KeepGoing*>(&keepGoing));
         commitFilter(filter);
         execute(filter);
-        requireNoError();
+        return requireNoError();
     }
 
-    [[nodiscard]] Image prefiltered(const char* name, const Image& guide) const {
+    [[nodiscard]] std::optional<Image> prefiltered(const char* name, const Image& guide,
+                                                   const KeepGoing& keepGoing) const {
         Image clean(guide.width, guide.height);
         const auto filter = makeFilter();
         give(filter.get(), name, guide);
         give(filter.get(), "output", clean);
-        run(filter.get(), DenoiseQuality::high);
-        return clean;
+        return run(filter.get(), DenoiseQuality::high, keepGoing) ? std::optional(clean) : std::nullopt;
     }
 };
 
@@ -185,21 +198,27 @@ std::string Denoiser::version() const {
     return fmt::format("{}.{}.{}", part("versionMajor"), part("versionMinor"), part("versionPatch"));
 }
 
-Image Denoiser::denoise(const Image& color, const DenoiseGuides& guides, DenoiseQuality quality,
-                        ImageKind kind) const {
+std::optional<Image> Denoiser::denoise(const Image& color, const DenoiseGuides& guides,
+                                       DenoiseQuality quality, ImageKind kind,
+                                       const KeepGoing& keepGoing) const {
     const bool isClean = quality == DenoiseQuality::high;
-    const Image albedo = isClean ? library_->prefiltered("albedo", guides.albedo) : guides.albedo;
-    const Image normal = isClean ? library_->prefiltered("normal", guides.normal) : guides.normal;
+    std::optional<Image> albedo;
+    std::optional<Image> normal;
+    if (isClean) {
+        albedo = library_->prefiltered("albedo", guides.albedo, keepGoing);
+        normal = albedo ? library_->prefiltered("normal", guides.normal, keepGoing) : std::nullopt;
+        if (!normal)
+            return std::nullopt;
+    }
     Image output(color.width, color.height);
     const auto filter = library_->makeFilter();
     library_->give(filter.get(), "color", color);
-    library_->give(filter.get(), "albedo", albedo);
-    library_->give(filter.get(), "normal", normal);
+    library_->give(filter.get(), "albedo", isClean ? *albedo : guides.albedo);
+    library_->give(filter.get(), "normal", isClean ? *normal : guides.normal);
     library_->give(filter.get(), "output", output);
     library_->setBool(filter.get(), "hdr", kind == ImageKind::radiance);
     library_->setBool(filter.get(), "cleanAux", isClean);
-    library_->run(filter.get(), quality);
-    return output;
+    return library_->run(filter.get(), quality, keepGoing) ? std::optional(std::move(output)) : std::nullopt;
 }
 
 } // namespace lavalight

@@ -1,7 +1,9 @@
 // Intel Open Image Denoise, which is looked for when it is asked for: nothing of it is needed to build.
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "image/image.h"
@@ -22,6 +24,9 @@ struct DenoiseGuides {
     Image normal; // means of unit vectors
 };
 
+// Asked now and then while an image is denoised; false gives it up.
+using KeepGoing = std::function<bool()>;
+
 class Denoiser {
   public:
     // Loads the library, 2.0 or newer: from the file or folder that LAVALIGHT_OIDN names, the system's paths,
@@ -36,9 +41,11 @@ class Denoiser {
     [[nodiscard]] std::string version() const;
 
     // `color`: finite and not negative, of any brightness or in [0, 1], as `kind` says.
-    // Not for two threads at a time. Throws Error as the library does.
-    [[nodiscard]] Image denoise(const Image& color, const DenoiseGuides& guides, DenoiseQuality quality,
-                                ImageKind kind = ImageKind::radiance) const;
+    // Nothing where `keepGoing` gave it up; without one, there is an image. Not for two threads at a time.
+    // Throws Error as the library does.
+    [[nodiscard]] std::optional<Image> denoise(const Image& color, const DenoiseGuides& guides,
+                                               DenoiseQuality quality, ImageKind kind = ImageKind::radiance,
+                                               const KeepGoing& keepGoing = {}) const;
 
   private:
     struct Library;

@@ -185,6 +185,16 @@ std::vector<std::string> layerNames(uint32_t asked) {
     return names;
 }
 
+std::vector<uint32_t> offeredRows() {
+    constexpr uint32_t kNeeded = 1u << kColorPlane | 1u << kCoveragePlane | 1u << kHitsPlane |
+                                 1u << kGuideAlbedoPlane | 1u << kGuideNormalPlane;
+    std::vector<uint32_t> rows;
+    for (uint32_t row = 0; row < kFilmPlaneCount; ++row)
+        if ((kNeeded >> row & 1u) == 0)
+            rows.push_back(row);
+    return rows;
+}
+
 FilmLayout layoutOf(uint32_t asked) {
     std::vector<LayerPlane> planes;
     for (uint32_t i = 0; i < kFilmPlaneCount; ++i)

@@ -67,6 +67,9 @@ class FilmLayout {
 // Names of all layers that a word asks for.
 [[nodiscard]] std::vector<std::string> layerNames(uint32_t asked);
 
+// Rows of FILM_PLANES that a user may ask for as layers; the others come with what needs them.
+[[nodiscard]] std::vector<uint32_t> offeredRows();
+
 // Rows of FILM_PLANES, bit i for row i, kNegativeWeights, and layers of ids. The colour must be among them.
 [[nodiscard]] FilmLayout layoutOf(uint32_t asked);
 // The film of a render that no further layer was asked of.

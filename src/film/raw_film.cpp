@@ -129,9 +129,17 @@ void add(RawFilm& sum, const RawFilm& more) {
                 sum.ids[i].counts.add(pixel, counted.id, counted.count);
 }
 
-Rendering emptyRendering(const FilmLayout& layout, uint32_t width, uint32_t height) {
+Rendering emptyRendering(const FilmLayout& layout, uint32_t width, uint32_t height, uint32_t rows) {
+    const auto isWanted = [&](const LayerPlane& plane) {
+        for (uint32_t row = 0; row < kFilmPlaneCount; ++row)
+            if (plane.name == planeName(row))
+                return (rows >> row & 1u) != 0;
+        return true; // a plane that only its file knows
+    };
     Rendering rendering;
     for (const LayerPlane& plane : layout.planes()) {
+        if (!isWanted(plane))
+            continue;
         Layer& layer = rendering.layers.emplace_back(
             Layer{plane.name, plane.channels, Image(width, height), std::nullopt});
         if (plane.hasSquares())
@@ -150,7 +158,12 @@ void resolveRange(const PixelSums& sums, const FilmLayout& layout, size_t firstP
         rendering.sampleCounts[firstPixel + pixel] = sums.count(pixel);
     for (size_t plane = 0; plane < layout.planes().size(); ++plane) {
         const FilmPlane& shape = layout.planes()[plane].shape;
-        Layer& layer = rendering.layers[plane];
+        const auto found =
+            std::find_if(rendering.layers.begin(), rendering.layers.end(),
+                         [&](const Layer& layer) { return layer.name == layout.planes()[plane].name; });
+        if (found == rendering.layers.end())
+            continue;
+        Layer& layer = *found;
         // Negative lobes of a pixel filter lead out of it.
         const bool isShare = layer.name == kCoverageLayer;
         const std::optional<size_t> hits =

@@ -76,8 +76,9 @@ void add(RawFilm& sum, const RawFilm& more);
 // A layer for each plane, named as it.
 [[nodiscard]] Rendering resolve(const RawFilm& film);
 
-// A rendering with a layer for each plane, all 0.
-[[nodiscard]] Rendering emptyRendering(const FilmLayout& layout, uint32_t width, uint32_t height);
+// A rendering with a layer for each plane of the `rows` of FILM_PLANES (bit i for row i), all 0.
+[[nodiscard]] Rendering emptyRendering(const FilmLayout& layout, uint32_t width, uint32_t height,
+                                       uint32_t rows = 0xffffffffu);
 // Writes the pixels of `words`, which are those from `firstPixel` on, into such a rendering of the whole
 // image.
 void resolvePixels(std::span<const uint32_t> words, const FilmLayout& layout, size_t firstPixel,

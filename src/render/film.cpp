@@ -63,9 +63,18 @@ void Film::clear() {
 }
 
 Rendering Film::resolve() const {
-    Rendering rendering = emptyRendering(layout_, width_, height_);
-    for (const FilmBand& band : bands_)
-        resolvePixels(band.sums.downloadAll<uint32_t>(), layout_, size_t{band.firstRow} * width_, rendering);
+    return resolve(0xffffffffu);
+}
+
+Rendering Film::resolve(uint32_t rows) const {
+    Rendering rendering = emptyRendering(layout_, width_, height_, rows);
+    for (const FilmBand& band : bands_) {
+        const size_t firstPixel = size_t{band.firstRow} * width_;
+        if (const std::span<const uint32_t> words = band.sums.mapped<uint32_t>(); !words.empty())
+            resolvePixels(words, layout_, firstPixel, rendering);
+        else
+            resolvePixels(band.sums.downloadAll<uint32_t>(), layout_, firstPixel, rendering);
+    }
     return rendering;
 }
 

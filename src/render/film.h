@@ -39,6 +39,9 @@ class Film {
     // Zero samples everywhere.
     void clear();
     [[nodiscard]] Rendering resolve() const;
+    // The layers of some of its planes alone, which costs less: bit i for row i of FILM_PLANES. Those of
+    // planes that it lacks are left out.
+    [[nodiscard]] Rendering resolve(uint32_t rows) const;
     [[nodiscard]] FilmTallies readTallies() const;
 
     // All of it, and back; `raw` must be of its size and layout.

@@ -78,12 +78,15 @@ Image ofCovered(Image image, const std::optional<Image>& coverage) {
 
 // Shares where their 3 by 3 pixels are alike, and what a denoiser makes of them elsewhere: at edges, and
 // behind what is transparent by chance.
-Image denoisedShares(const Image& shares, const DenoiseGuides& guides, const Denoiser& denoiser,
-                     DenoiseQuality quality) {
+std::optional<Image> denoisedShares(const Image& shares, const DenoiseGuides& guides, const Denoiser& denoiser,
+                                    DenoiseQuality quality, const KeepGoing& keepGoing) {
     Image grey(shares.width, shares.height);
     for (size_t i = 0; i < grey.pixels.size(); ++i)
         grey.pixels[i] = glm::vec3(shares.pixels[i].x);
-    Image clean = denoiser.denoise(grey, guides, quality, ImageKind::display);
+    std::optional<Image> denoised = denoiser.denoise(grey, guides, quality, ImageKind::display, keepGoing);
+    if (!denoised)
+        return std::nullopt;
+    Image& clean = *denoised;
     for (uint32_t y = 0; y < shares.height; ++y)
         for (uint32_t x = 0; x < shares.width; ++x) {
             const float here = shares.at(x, y).x;
@@ -94,7 +97,7 @@ Image denoisedShares(const Image& shares, const DenoiseGuides& guides, const Den
             glm::vec3& pixel = clean.pixels[size_t{y} * shares.width + x];
             pixel = {isAlike ? here : std::clamp(pixel.x, 0.0f, 1.0f), 0.0f, 0.0f};
         }
-    return clean;
+    return denoised;
 }
 
 // The largest x of the 3 by 3 pixels around one.
@@ -109,7 +112,8 @@ float largestAround(const Image& image, uint32_t x, uint32_t y) {
 // The shadow on the ground alone. It goes on below the model, and pixels of the model's edge, where few
 // samples say something of it, take it from their neighbours. A guide of where the ground is keeps their
 // noise, which is then wider than a pixel, from passing for a shape.
-Image denoisedShadow(const Image& shadows, const Denoiser& denoiser, DenoiseQuality quality) {
+std::optional<Image> denoisedShadow(const Image& shadows, const Denoiser& denoiser, DenoiseQuality quality,
+                                    const KeepGoing& keepGoing) {
     Image shares(shadows.width, shadows.height);
     std::vector<uint8_t> isGround(shadows.pixels.size());
     for (uint32_t y = 0; y < shadows.height; ++y)
@@ -123,7 +127,7 @@ Image denoisedShadow(const Image& shadows, const Denoiser& denoiser, DenoiseQual
     for (size_t i = 0; i < isGround.size(); ++i)
         guides.albedo.pixels[i] = glm::vec3(isGround[i]);
     spread(shares, std::move(isGround));
-    return denoisedShares(shares, guides, denoiser, quality);
+    return denoisedShares(shares, guides, denoiser, quality, keepGoing);
 }
 
 // What clean shadows are of alpha. The share of the pixel that is ground follows the clean coverage.
@@ -150,32 +154,42 @@ void exchangeShadow(const Image& shadows, const Image& clean, const Image& behin
 
 } // namespace
 
-void denoise(Rendering& rendering, const Denoiser& denoiser, DenoiseQuality quality, uint32_t asked,
-             bool isSharp) {
+void removeGuides(Rendering& rendering, uint32_t asked) {
+    for (const uint32_t row : {kEmissionPlane, kGuideAlbedoPlane, kGuideNormalPlane})
+        if ((asked >> row & 1u) == 0)
+            std::erase_if(rendering.layers, [&](const Layer& layer) { return layer.name == planeName(row); });
+}
+
+bool denoise(Rendering& rendering, const Denoiser& denoiser, DenoiseQuality quality, uint32_t asked,
+             bool isSharp, const KeepGoing& keepGoing) {
     const std::optional<Image> coverage = coverageWithoutShadow(rendering);
     const Image none(rendering.radiance().width, rendering.radiance().height);
     Image keptLight = isSharp ? layerOf(rendering, kEmissionPlane) : none;
     const DenoiseGuides guides{layerOf(rendering, kGuideAlbedoPlane), layerOf(rendering, kGuideNormalPlane)};
-    Image image =
+    std::optional<Image> denoised =
         denoiser.denoise(ofCovered(withoutEmission(rendering.radiance(), keptLight), coverage),
-                         {ofCovered(guides.albedo, coverage), ofCovered(guides.normal, coverage)}, quality);
+                         {ofCovered(guides.albedo, coverage), ofCovered(guides.normal, coverage)}, quality,
+                         ImageKind::radiance, keepGoing);
     std::optional<Image> alpha;
-    if (coverage)
-        alpha = denoisedShares(*coverage, guides, denoiser, quality);
+    if (denoised && coverage)
+        alpha = denoisedShares(*coverage, guides, denoiser, quality, keepGoing);
+    if (!denoised || (coverage && !alpha))
+        return false;
+    Image& image = *denoised;
     std::optional<Image> shadow;
     if (rendering.find(planeName(kShadowPlane)) != nullptr) {
         const Image& shadows = layerOf(rendering, kShadowPlane);
-        const Image clean = denoisedShadow(shadows, denoiser, quality);
+        const std::optional<Image> clean = denoisedShadow(shadows, denoiser, quality, keepGoing);
+        if (!clean)
+            return false;
         if (coverage)
-            shadow = alphaOfShadow(shadows, clean, *coverage, *alpha);
+            shadow = alphaOfShadow(shadows, *clean, *coverage, *alpha);
         else if (isSharp)
-            exchangeShadow(shadows, clean, layerOf(rendering, kBehindPlane), keptLight);
+            exchangeShadow(shadows, *clean, layerOf(rendering, kBehindPlane), keptLight);
     }
     for (size_t i = 0; i < image.pixels.size(); ++i)
         image.pixels[i] = (alpha ? alpha->pixels[i].x : 1.0f) * image.pixels[i] + keptLight.pixels[i];
-    for (const uint32_t row : {kEmissionPlane, kGuideAlbedoPlane, kGuideNormalPlane})
-        if ((asked >> row & 1u) == 0)
-            std::erase_if(rendering.layers, [&](const Layer& layer) { return layer.name == planeName(row); });
+    removeGuides(rendering, asked);
     const std::string prefix = kDenoisedLayer;
     rendering.layers.push_back(
         {kDenoisedLayer, {prefix + ".R", prefix + ".G", prefix + ".B"}, std::move(image), std::nullopt});
@@ -187,6 +201,7 @@ void denoise(Rendering& rendering, const Denoiser& denoiser, DenoiseQuality qual
     if (shadow)
         rendering.layers.push_back(
             {kDenoisedShadow, {std::string(kDenoisedShadow) + ".N"}, std::move(*shadow), std::nullopt});
+    return true;
 }
 
 } // namespace lavalight

@@ -34,12 +34,6 @@ void warn(RenderReport& report, const std::string& message) {
     spdlog::warn("{}", message);
 }
 
-PngTexts textsOf(const ToneSettings& tone) {
-    return {{"Software", fmt::format("Lavalight {}", kVersion)},
-            {"lavalight:tonemap", std::string(nameOf(tone.curve))},
-            {"lavalight:exposure", fmt::format("{}", tone.exposure)}};
-}
-
 std::vector<Layer> denoisedLayers(const Rendering& rendering) {
     std::vector<Layer> layers;
     for (const char* name : {kDenoisedLayer, kDenoisedCoverage})
@@ -116,6 +110,27 @@ void requireOutputs(const Outputs& outputs) {
             requireWritable(file);
 }
 
+PngTexts pngTexts(const ToneSettings& tone) {
+    return {{"Software", fmt::format("Lavalight {}", kVersion)},
+            {"lavalight:tonemap", std::string(nameOf(tone.curve))},
+            {"lavalight:exposure", fmt::format("{}", tone.exposure)}};
+}
+
+void addDenoised(RenderReport& report, Rendering& rendering, const Denoiser& denoiser, DenoiseQuality quality,
+                 uint32_t asked, bool isSharp) {
+    denoise(rendering, denoiser, quality, asked, isSharp);
+    report.ledger.push_back({"denoised", fmt::format("the PNG and the layer {}, by Open Image Denoise {}, {}",
+                                                     kDenoisedLayer, denoiser.version(), nameOf(quality))});
+}
+
+std::vector<uint32_t> denoisedPixels(const Rendering& rendering, ToneMapper& toneMapper,
+                                     const ToneSettings& tone) {
+    const Layer* denoised = rendering.find(kDenoisedLayer);
+    assert(denoised != nullptr);
+    return toneMapper.map(denoised->mean, meanOf(rendering, kDenoisedCoverage), tone,
+                          meanOf(rendering, kDenoisedShadow));
+}
+
 void writeOutputs(RenderJob& job, const Outputs& outputs, OutputStyle& style, ToneMapper* toneMapper) {
     RenderReport& report = job.report;
     Rendering rendering = job.renderer->rendering();
@@ -124,10 +139,7 @@ void writeOutputs(RenderJob& job, const Outputs& outputs, OutputStyle& style, To
     fillResults(report, *job.renderer, *job.device, rendering, job.scene);
     if (style.denoiser) {
         const bool isSharp = job.renderer->frame().lensRadius == 0.0f;
-        denoise(rendering, *style.denoiser, style.quality, style.layers, isSharp);
-        report.ledger.push_back(
-            {"denoised", fmt::format("the PNG and the layer {}, by Open Image Denoise {}, {}", kDenoisedLayer,
-                                     style.denoiser->version(), nameOf(style.quality))});
+        addDenoised(report, rendering, *style.denoiser, style.quality, style.layers, isSharp);
         job.watch.lap("denoise");
     }
     if (report.tallies.crowdedPaths > 0)
@@ -148,10 +160,9 @@ void writeOutputs(RenderJob& job, const Outputs& outputs, OutputStyle& style, To
             style.tone.exposure = autoExposure(rendering);
         report.tone = style.tone;
         const Layer* denoised = rendering.find(kDenoisedLayer);
-        const std::vector<uint32_t> pixels =
-            denoised != nullptr ? toneMapper->map(denoised->mean, meanOf(rendering, kDenoisedCoverage),
-                                                  style.tone, meanOf(rendering, kDenoisedShadow))
-                                : toneMapper->map(job.renderer->film(), style.tone);
+        const std::vector<uint32_t> pixels = denoised != nullptr
+                                                 ? denoisedPixels(rendering, *toneMapper, style.tone)
+                                                 : toneMapper->map(job.renderer->film(), style.tone);
         const std::optional<Image> coverage = coverageWithoutShadow(rendering);
         const bool isDark = !job.scene.environmentMap && !report.settings.lighting.constant;
         warn(report, extremesText(pixels, coverage ? &*coverage : nullptr,
@@ -159,7 +170,7 @@ void writeOutputs(RenderJob& job, const Outputs& outputs, OutputStyle& style, To
                                               !exposesByImage && isDark ? ", or " : "",
                                               isDark ? "--env studio" : "")));
         writePng(outputs.png, rendering.radiance().width, rendering.radiance().height, pixels,
-                 textsOf(style.tone));
+                 pngTexts(style.tone));
     }
     job.watch.lap("write");
     addPartsOfStages(report, job);

@@ -1,11 +1,15 @@
 // The files that a render writes.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "base/input_files.h"
 #include "denoise/denoiser.h"
+#include "image/png.h"
+#include "image/rendering.h"
 #include "render/tone_mapper.h"
 #include "session/render_job.h"
 
@@ -44,5 +48,15 @@ struct OutputStyle {
 // Writes the image so far, and completes the job's report. An exposure that the image settles goes into
 // `style`. `toneMapper` may be null where there is no PNG. Throws Error.
 void writeOutputs(RenderJob& job, const Outputs& outputs, OutputStyle& style, ToneMapper* toneMapper);
+
+// Text chunks of a PNG.
+[[nodiscard]] PngTexts pngTexts(const ToneSettings& tone);
+
+// Denoises the rendering (denoise()), and says so in the report's ledger. Throws Error.
+void addDenoised(RenderReport& report, Rendering& rendering, const Denoiser& denoiser, DenoiseQuality quality,
+                 uint32_t asked, bool isSharp);
+// Pixels of the layer kDenoisedLayer, which the rendering must have.
+[[nodiscard]] std::vector<uint32_t> denoisedPixels(const Rendering& rendering, ToneMapper& toneMapper,
+                                                   const ToneSettings& tone);
 
 } // namespace lavalight

@@ -20,8 +20,7 @@ struct Offer {
 
 std::vector<Offer> offers() {
     std::vector<Offer> offers;
-    for (const uint32_t row : {kAlbedoPlane, kNormalPlane, kDepthPlane, kPositionPlane, kUvPlane,
-                               kEmissionPlane, kDirectPlane, kIndirectPlane, kMotionPlane})
+    for (const uint32_t row : offeredRows())
         offers.push_back({planeName(row), 1u << row});
     for (const uint32_t bit : {kObjectIds, kMaterialIds, kCryptomatte})
         offers.push_back({layerNameOf(bit), bit});
