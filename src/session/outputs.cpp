@@ -36,7 +36,7 @@ void warn(RenderReport& report, const std::string& message) {
 
 std::vector<Layer> denoisedLayers(const Rendering& rendering) {
     std::vector<Layer> layers;
-    for (const char* name : {kDenoisedLayer, kDenoisedCoverage})
+    for (const char* name : {kDenoisedLayer, kDenoisedCoverage, kDenoisedShadow})
         if (const Layer* layer = rendering.find(name))
             layers.push_back(*layer);
     return layers;

@@ -50,12 +50,11 @@ void drag(CameraRig& rig, const glm::vec2& window, ControlAnswer& answer) {
     answer.hasMoved = true;
 }
 
-void fly(CameraRig& rig, ControlAnswer& answer) {
+void fly(CameraRig& rig, bool& isChord, ControlAnswer& answer) {
     const ImGuiIO& io = ImGui::GetIO();
-    if (io.KeyCtrl)
-        return;
     const glm::vec3 way(pressed('D', 'A'), pressed('E', 'Q'), pressed('W', 'S'));
-    answer.isFlying = way != glm::vec3(0.0f);
+    isChord = way != glm::vec3(0.0f) && (isChord || io.KeyCtrl);
+    answer.isFlying = way != glm::vec3(0.0f) && !isChord;
     if (!answer.isFlying)
         return;
     // As far as the pivot in a second. A window that was busy must not leap.
@@ -71,8 +70,9 @@ void click(ControlAnswer& answer) {
         answer.centre = at;
         return;
     }
-    const glm::vec2 moved = at - of(io.MouseClickedPos[ImGuiMouseButton_Left]);
-    if (!ImGui::IsMouseReleased(ImGuiMouseButton_Left) || glm::length(moved) > kClickPoints)
+    // A drag that comes back to where it began is none.
+    const float moved = io.MouseDragMaxDistanceSqr[ImGuiMouseButton_Left];
+    if (!ImGui::IsMouseReleased(ImGuiMouseButton_Left) || moved > kClickPoints * kClickPoints)
         return;
     if (isDown('F'))
         answer.focus = at;
@@ -82,14 +82,17 @@ void click(ControlAnswer& answer) {
 
 } // namespace
 
-ControlAnswer moveCamera(CameraRig& rig, const glm::vec2& window) {
+ControlAnswer moveCamera(CameraRig& rig, bool& isChord, const glm::vec2& window) {
     ControlAnswer answer;
     const ImGuiIO& io = ImGui::GetIO();
     if (!io.WantCaptureKeyboard)
-        fly(rig, answer);
+        fly(rig, isChord, answer);
     if (io.WantCaptureMouse)
         return answer;
     drag(rig, window, answer);
+    for (const ImGuiMouseButton button :
+         {ImGuiMouseButton_Left, ImGuiMouseButton_Right, ImGuiMouseButton_Middle})
+        answer.isLetGo |= ImGui::IsMouseReleased(button);
     if (io.MouseWheel != 0.0f) {
         rig.dolly(std::pow(1.0f - kWheelStep, io.MouseWheel));
         answer.hasMoved = true;
@@ -109,7 +112,9 @@ std::span<const std::pair<std::string_view, std::string_view>> controlHelp() {
         Line{"click", "inspect this pixel and its paths; Escape ends it"},
         Line{"F and click", "focus here"},
         Line{"Home", "back to the scene's camera"},
-        Line{"B", "compare two settings side by side"},
+        Line{"V", "the next view: colour, denoised, layers (with Shift: the one before)"},
+        Line{"N", "without noise: the denoised picture, and back"},
+        Line{"B", "two views or settings side by side; V and N are for the side of the mouse"},
         Line{"Ctrl+S", "save the image as EXR and PNG"},
         Line{"Tab", "hide and show the panel"},
         Line{"F1", "these keys"},

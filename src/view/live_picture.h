@@ -30,6 +30,8 @@ struct LiveStatistics {
     double error = -1.0; // estimated relMSE; negative: not known yet
     gpu::KernelTimes kernels;
     std::vector<uint64_t> raysPerBounce; // queue lengths; empty: these kernels have no queues
+    uint32_t denoisedSamples = 0;        // samples of the denoised picture that is shown; 0: none is
+    float exposure = 0.0f;               // stops that the picture is shown with
 };
 
 // One of the images rendered side by side.

@@ -20,29 +20,65 @@ constexpr std::chrono::milliseconds kPictureEvery(200);
 
 // What the thread has in hand.
 struct LiveRender::Work {
-    explicit Work(gpu::Device& device)
-        : tone(device), sides{LiveSide(device, tone), LiveSide(device, tone)} {}
+    Work(gpu::Device& device, const std::function<void()>& wake)
+        : tone(device), sides{LiveSide(device, tone), LiveSide(device, tone)},
+          sharesProcessors(device.description().isCpu), denoiser(makeLibraryDenoise, wake) {}
 
     // Shows both sides of what is asked for, or throws Error with what they showed before.
     void show(gpu::Device& device, const LiveRequest& request);
     [[nodiscard]] bool isComplete() const {
-        return sides[0].isComplete() && (!isSplit || sides[1].isComplete());
+        return sides[0].isComplete() && (!hasOther || sides[1].isComplete());
     }
     // The side that has had less time, of those that have work; null: none has.
     [[nodiscard]] LiveSide* next() {
         LiveSide* chosen = nullptr;
-        for (LiveSide* side : {&sides[0], isSplit ? &sides[1] : nullptr})
+        for (LiveSide* side : {&sides[0], hasOther ? &sides[1] : nullptr})
             if (side != nullptr && side->hasWork() &&
                 (chosen == nullptr || side->seconds() < chosen->seconds()))
                 chosen = side;
         return chosen;
     }
 
+    // Whether the denoised picture of an image is shown on one of the halves.
+    [[nodiscard]] bool showsDenoised(size_t side) const {
+        const LiveRequest& request = sides[0].request();
+        const bool isLeft = side == 0 && request.shown[0].isDenoised;
+        return isLeft || (request.isSplit && side == (hasOther ? 1u : 0u) && request.shown[1].isDenoised);
+    }
+
+    // The exposure that the pictures are shown with.
+    [[nodiscard]] float exposure() {
+        const LiveRequest& request = sides[0].request();
+        return request.exposesByImage ? sides[0].imageExposure() : request.tone.exposure;
+    }
+    [[nodiscard]] SavedPicture saved() { return {showsDenoised(0) && denoiser.whyNot().empty(), exposure()}; }
+    [[nodiscard]] bool isDenoised() const {
+        for (size_t side = 0; side < 2; ++side)
+            if (showsDenoised(side) && denoiser.whyNot().empty() && !sides[side].isDenoised())
+                return false;
+        return true;
+    }
+    // Gives up what was ordered of images that have started again.
+    void dropStale() {
+        for (size_t side = 0; side < 2; ++side)
+            if (std::exchange(imageNumbers[side], sides[side].imageNumber()) != sides[side].imageNumber())
+                denoiser.restart(side);
+    }
+
+    // Whether samples wait for the denoiser, on the processors that both work on: a picture is clean sooner,
+    // and what the user does, which ends the denoising, waits for no wave.
+    [[nodiscard]] bool isHeld() const {
+        return sharesProcessors && denoiser.whyNot().empty() && !denoiser.isIdle();
+    }
+
     ToneMapper tone;
-    std::array<LiveSide, 2> sides;
-    bool isSplit = false;
+    std::array<LiveSide, 2> sides; // images: the second is rendered where it has settings of its own
+    bool sharesProcessors;
+    bool hasOther = false;
     bool isNew = false; // no picture of it has been shown
     Clock::time_point shown{};
+    std::array<uint64_t, 2> imageNumbers{};
+    LiveDenoiser denoiser; // last: its thread wakes this one
 };
 
 LiveRender::LiveRender(const gpu::DeviceConfig& device, std::function<void()> wake)
@@ -89,6 +125,7 @@ LiveNews LiveRender::news() {
     news_ = {};
     news_.isReady = news.isReady;
     news_.isFinished = news.isFinished;
+    news_.whyNotDenoised = news.whyNotDenoised;
     return news;
 }
 
@@ -104,7 +141,7 @@ void LiveRender::run() {
 
 // Renders wave after wave, and listens in between.
 void LiveRender::loop() {
-    Work work(device_);
+    Work work(device_, [this] { order([this] { hasDenoised_ = true; }); });
     while (takeOrders(work)) {
         try {
             advance(work);
@@ -113,6 +150,7 @@ void LiveRender::loop() {
         } catch (const Error& error) { // whatever fails in the midst of a wave leaves a film of no use
             for (LiveSide& side : work.sides)
                 side.giveUp();
+            work.dropStale();
             report(error.what());
         }
         device_.requireNoValidationMessages();
@@ -120,29 +158,58 @@ void LiveRender::loop() {
 }
 
 void LiveRender::advance(Work& work) {
-    if (LiveSide* side = work.next())
+    if (LiveSide* side = work.isHeld() ? nullptr : work.next())
         side->step();
+    orderDenoising(work);
     const bool isDone = work.next() == nullptr;
     if (work.isComplete() && (work.isNew || isDone || Clock::now() - work.shown >= kPictureEvery))
         publish(work);
+}
+
+// The side that has waited longest comes first: the denoiser takes one at a time.
+void LiveRender::orderDenoising(Work& work) {
+    for (size_t side = 0; side < (work.hasOther ? 2u : 1u); ++side)
+        if (work.sides[side].hasImage() && work.showsDenoised(side) && work.sides[side].wantsDenoising() &&
+            work.denoiser.isIdle() && work.denoiser.whyNot().empty())
+            work.denoiser.order(side, work.sides[side].orderDenoising());
+}
+
+void LiveRender::takeDenoised(Work& work) {
+    for (size_t side = 0; side < 2; ++side)
+        if (std::optional<DenoisedPicture> picture = work.denoiser.take(side)) {
+            work.sides[side].setDenoised(std::move(*picture));
+            work.isNew = true;
+        }
+    if (const std::string error = work.denoiser.takeError(); !error.empty())
+        report(error);
+    {
+        const std::lock_guard lock(mutex_);
+        news_.whyNotDenoised = work.denoiser.whyNot();
+    }
+    wake_();
 }
 
 // Waits for something to do; false: it is over.
 bool LiveRender::takeOrders(Work& work) {
     std::optional<LiveRequest> request;
     std::vector<Task> tasks;
+    bool hasDenoised = false;
     {
         std::unique_lock lock(mutex_);
         const bool isComplete = work.sides[0].isComplete();
         orders_.wait(lock, [&] {
-            return isEnding_ || wanted_ || (isComplete && !tasks_.empty()) || work.next() != nullptr;
+            return isEnding_ || wanted_ || hasDenoised_ || (isComplete && !tasks_.empty()) ||
+                   (work.next() != nullptr && !work.isHeld());
         });
         if (isEnding_)
             return false;
+        hasDenoised = std::exchange(hasDenoised_, false);
         request = std::exchange(wanted_, std::nullopt);
         if (!request && isComplete)
             tasks = std::exchange(tasks_, {});
     }
+    if (hasDenoised)
+        takeDenoised(work);
     if (request)
         change(work, *request);
     for (const Task& task : tasks)
@@ -172,7 +239,7 @@ void LiveRender::Work::show(gpu::Device& device, const LiveRequest& request) {
             throw;
         }
     }
-    isSplit = request.other.has_value();
+    hasOther = request.other.has_value();
     if (fresh)
         tone = std::move(*fresh);
 }
@@ -187,6 +254,7 @@ void LiveRender::change(Work& work, const LiveRequest& request) {
     } catch (const Error& error) {
         report(error.what());
     }
+    work.dropStale();
 }
 
 void LiveRender::perform(Work& work, const Task& task) {
@@ -196,7 +264,8 @@ void LiveRender::perform(Work& work, const Task& task) {
             const std::lock_guard lock(mutex_);
             news_.inspection = std::move(inspection);
         } else {
-            std::string message = saveImage(work.sides[0], work.tone, device_, {task.exr, task.png, {}, {}});
+            std::string message =
+                saveImage(work.sides[0], work.saved(), work.tone, device_, {task.exr, task.png, {}, {}});
             const std::lock_guard lock(mutex_);
             news_.messages.push_back(std::move(message));
         }
@@ -210,16 +279,18 @@ void LiveRender::perform(Work& work, const Task& task) {
 
 void LiveRender::publish(Work& work) {
     std::array<std::optional<LiveView>, 2> views;
-    views[0] = work.sides[0].view();
-    if (work.isSplit)
-        views[1] = work.sides[1].view();
+    const LiveRequest& request = work.sides[0].request();
+    const float exposure = work.exposure();
+    views[0] = work.sides[0].view(request.shown[0], exposure);
+    if (request.isSplit)
+        views[1] = work.sides[work.hasOther ? 1 : 0].view(request.shown[1], exposure);
     work.isNew = false;
     work.shown = Clock::now();
     {
         const std::lock_guard lock(mutex_);
         news_.views = std::move(views);
         news_.isReady = !wanted_;
-        news_.isFinished = work.next() == nullptr;
+        news_.isFinished = work.next() == nullptr && work.isDenoised();
     }
     wake_();
 }

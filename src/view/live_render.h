@@ -24,8 +24,9 @@ struct LiveNews {
     // What could not be done: the image from before goes on, unless it was the one that failed. Then there is
     // none until the next show().
     std::vector<std::string> errors;
+    std::string whyNotDenoised; // why nothing can be denoised; empty: it can, or that is not known yet
     bool isReady = false;    // the newest request is what is rendered: nothing is being compiled or uploaded
-    bool isFinished = false; // all samples are taken
+    bool isFinished = false; // all samples are taken, and denoised where that is shown
 };
 
 class LiveRender {
@@ -68,6 +69,8 @@ class LiveRender {
     void loop();
     void advance(Work& work);
     [[nodiscard]] bool takeOrders(Work& work);
+    void takeDenoised(Work& work);
+    void orderDenoising(Work& work);
     void change(Work& work, const LiveRequest& request);
     void publish(Work& work);
     void perform(Work& work, const Task& task);
@@ -81,7 +84,8 @@ class LiveRender {
     std::optional<LiveRequest> wanted_; // request that is not being rendered yet
     std::vector<Task> tasks_;           // tasks to do on the image as soon as it has a sample
     LiveNews news_;
-    std::string failure_; // message of the error that ended the thread
+    bool hasDenoised_ = false; // the denoiser has something to tell
+    std::string failure_;      // message of the error that ended the thread
     bool isEnding_ = false;
     std::thread thread_; // last: started when all else is there
 };

@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <utility>
 
 #include "base/error.h"
 #include "gpu/vulkan_error.h"
+#include "session/exposure.h"
+#include "view/layer_display.h"
 
 namespace lavalight {
 namespace {
@@ -17,6 +20,12 @@ constexpr double kFrameSeconds = 0.03;
 
 // Paths of the shortest wave: fewer do not fill the threads of a processor, whose dispatches cost 50 us each.
 constexpr uint32_t kFewestSlots = 4096;
+
+// Samples a pixel before which the logarithms of noise say too little of an image's brightness.
+constexpr uint32_t kFewestToExpose = 4;
+
+// Samples after which nothing is denoised any more.
+constexpr uint32_t kNever = 0xffffffffu;
 
 // The film of a moving camera has that many pixels to the window's one, in each direction, at most.
 constexpr std::array<uint32_t, 6> kCoarseness{1, 2, 3, 4, 6, 8};
@@ -97,6 +106,10 @@ void LiveSide::rebuild(const LiveRequest& request) {
 void LiveSide::startCounting() {
     statistics_ = {};
     nextErrorAt_ = 2;
+    exposedAt_ = 0;
+    denoised_.reset();
+    nextDenoisedAt_ = 1;
+    ++imageNumber_;
 }
 
 void LiveSide::step() {
@@ -113,19 +126,64 @@ void LiveSide::step() {
     statistics_.seconds += seconds;
     statistics_.samples = renderer_->position().samplesDone;
     if (statistics_.samples >= nextErrorAt_ && renderer_->position().passSamples == 0) {
-        statistics_.error = errorEstimate(renderer_->rendering());
+        statistics_.error = errorEstimate(renderer_->film().resolve(1u << kColorPlane));
         nextErrorAt_ = 2 * statistics_.samples; // an estimate costs as much as reading the whole film
     }
 }
 
-LiveView LiveSide::view() {
+LiveView LiveSide::view(const ShownLayer& shown, float exposure) {
     const WaveRenderer& waves = renderer_->waves();
     statistics_.rays = waves.rays();
     statistics_.paths = statistics_.rays.camera;
     statistics_.kernels = waves.kernelTimes();
     statistics_.raysPerBounce = waves.raysPerBounce();
+    statistics_.denoisedSamples = shown.isDenoised && denoised_ ? denoised_->samples : 0;
+    statistics_.exposure = exposure;
+    ToneSettings tone = request_->tone;
+    tone.exposure = exposure;
     const Film& film = renderer_->film();
-    return {{film.width(), film.height(), toneMapper_->map(film, request_->tone)}, statistics_};
+    LivePicture picture{film.width(), film.height(), pixelsOf(shown, tone)};
+    if (request_->settings.background.kind == Background::transparent)
+        putOnCheckerboard(picture.pixels, picture.width,
+                          {request_->settings.image.width, request_->settings.image.height});
+    return {std::move(picture), statistics_};
+}
+
+// A layer that the film lacks, for the moment until it restarts with it, is the colour.
+std::vector<uint32_t> LiveSide::pixelsOf(const ShownLayer& shown, const ToneSettings& tone) {
+    const Film& film = renderer_->film();
+    if (shown.isDenoised && denoised_)
+        return toneMapper_->map(denoised_->color, denoised_->coverage ? &*denoised_->coverage : nullptr,
+                                tone);
+    if (shown.row == kColorPlane || !film.layout().find(shown.row))
+        return toneMapper_->map(film, tone);
+    return displayOf(film.resolve(1u << shown.row | 1u << kHitsPlane), shown.row, std::exp2(tone.exposure));
+}
+
+float LiveSide::imageExposure() {
+    const uint32_t samples = renderer_->position().samplesDone;
+    const bool isDue =
+        renderer_->isDone() ? samples != exposedAt_ : samples >= std::max(kFewestToExpose, 2 * exposedAt_);
+    if (!exposure_ || isDue) {
+        exposure_ = autoExposure(renderer_->film().resolve(1u << kColorPlane | 1u << kCoveragePlane));
+        exposedAt_ = samples;
+    }
+    return *exposure_;
+}
+
+bool LiveSide::wantsDenoising() const {
+    const bool hasGuides =
+        isComplete() && (renderer_->settings().layers & kDenoisingLayers) == kDenoisingLayers;
+    return hasGuides && !request_->isMoving && nextDenoisedAt_ != kNever &&
+           (renderer_->isDone() || renderer_->position().samplesDone >= nextDenoisedAt_);
+}
+
+DenoiseOrder LiveSide::orderDenoising() {
+    const uint32_t samples = renderer_->position().samplesDone;
+    nextDenoisedAt_ = renderer_->isDone() ? kNever : 2 * samples;
+    const uint32_t rows = kDenoisingLayers | 1u << kColorPlane | 1u << kCoveragePlane;
+    return {renderer_->film().resolve(rows), samples, renderer_->frame().lensRadius == 0.0f,
+            request_->quality};
 }
 
 PixelInspection LiveSide::inspect(const glm::uvec2& pixel, uint32_t sample) {

@@ -8,6 +8,7 @@
 #include "view/estimator_panel.h"
 #include "view/inspector_panel.h"
 #include "view/scene_panel.h"
+#include "view/screen_panel.h"
 #include "view/statistics_panel.h"
 #include "view/widgets.h"
 
@@ -33,7 +34,6 @@ void drawEstimators(ViewState& view) {
         ImGui::PushID("left");
         drawEstimator(view.settings.estimator);
         chooseSchedule(view);
-        tick("compare", view.isSplit, "Renders other settings beside these, for the same time");
         ImGui::PopID();
     }
     if (view.isSplit && ImGui::CollapsingHeader("Estimator on the right", ImGuiTreeNodeFlags_DefaultOpen)) {
@@ -55,18 +55,19 @@ drawPanel(ViewState& view,
     if (ImGui::Begin("Lavalight", &view.showsPanel, ImGuiWindowFlags_NoSavedSettings)) {
         ImGui::PushItemWidth(10.0f * em);
         ImGui::TextDisabled("F1: keys, Tab: hides this");
+        if (ImGui::CollapsingHeader("View", ImGuiTreeNodeFlags_DefaultOpen))
+            drawScreen(view, statistics.first ? statistics.first->exposure : view.tone.exposure);
         if (ImGui::CollapsingHeader("Render", ImGuiTreeNodeFlags_DefaultOpen)) {
+            const bool hasOther = view.isSplit && view.other != view.settings.estimator;
             if (statistics.first)
-                drawStatistics(view.isSplit ? "left: " : "", *statistics.first);
-            if (view.isSplit && statistics.second)
+                drawStatistics(hasOther ? "left: " : "", *statistics.first);
+            if (hasOther && statistics.second)
                 drawStatistics("right: ", *statistics.second);
             answer.wantsSave = ImGui::Button("save EXR and PNG");
         }
         drawEstimators(view);
         if (ImGui::CollapsingHeader("Scene"))
             answer.wantsScene = drawScene(view);
-        if (ImGui::CollapsingHeader("Screen", ImGuiTreeNodeFlags_DefaultOpen))
-            drawTone(view.tone);
         ImGui::PopItemWidth();
     }
     ImGui::End();

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/named.h"
+#include "view/light_choice.h"
 #include "view/widgets.h"
 
 namespace lavalight {
@@ -59,8 +60,43 @@ void drawLens(ViewState& view) {
     }
 }
 
-void drawEnvironment(ViewState& view) {
+void drawSky(SkySettings& sky) {
+    ImGui::SliderFloat("sun's elevation", &sky.sunElevation, 0.0f, 90.0f, "%.0f deg",
+                       ImGuiSliderFlags_AlwaysClamp);
+    explain("Degrees of the sun above the horizon");
+    ImGui::SliderFloat("sun's azimuth", &sky.sunAzimuth, -180.0f, 180.0f, "%.0f deg",
+                       ImGuiSliderFlags_AlwaysClamp);
+    explain("Degrees of the sun from +Z, the front of a model, towards +X");
+    ImGui::SliderFloat("turbidity", &sky.turbidity, 1.0f, 10.0f, "%.1f", ImGuiSliderFlags_AlwaysClamp);
+    explain("From 1, clear air, to 10, haze");
+}
+
+// True where another light is to be brought.
+bool drawLight(ViewState& view) {
+    const LightingSettings before = view.light;
+    if (!view.light.mapFile.empty())
+        view.map = view.light.mapFile;
+    const std::vector<LightOffer> offers = lightOffers(view.light, view.map);
+    const auto now = std::find_if(offers.begin(), offers.end(), [&](const LightOffer& offer) {
+        return isSameLight(offer.lighting, view.light);
+    });
+    if (ImGui::BeginCombo("light", now == offers.end() ? "" : now->name.c_str())) {
+        for (size_t i = 0; i < offers.size(); ++i)
+            if (offer(i, offers[i].name, isSameLight(offers[i].lighting, view.light)))
+                view.light = offers[i].lighting;
+        ImGui::EndCombo();
+    }
+    explain(
+        "What shines where nothing is hit. A file without light of its own has the studio. Drop a .hdr or "
+        ".exr file here for a map");
+    if (view.light.procedural == ProceduralEnvironment::sky)
+        drawSky(view.light.sky);
+    return !isSameLight(view.light, before);
+}
+
+bool drawEnvironment(ViewState& view) {
     RenderSettings& settings = view.settings;
+    const bool isOther = drawLight(view);
     if (view.scene->environmentMap) {
         ImGui::SliderFloat("map's rotation", &settings.lighting.rotation, -180.0f, 180.0f, "%.0f deg");
         explain("Turns the environment map about the vertical");
@@ -68,6 +104,7 @@ void drawEnvironment(ViewState& view) {
     ImGui::DragFloat("environment", &settings.lighting.intensity, 0.01f, 0.0f, 1000.0f, "times %.2f",
                      ImGuiSliderFlags_AlwaysClamp);
     explain("Multiplies what shines where nothing is hit");
+    return isOther;
 }
 
 bool drawVariants(ViewState& view) {
@@ -110,17 +147,9 @@ bool drawMoment(ViewState& view) {
 bool drawScene(ViewState& view) {
     const bool isElsewhere = drawCameras(view);
     drawLens(view);
-    drawEnvironment(view);
+    const bool hasLight = drawEnvironment(view);
     const bool hasVariant = drawVariants(view);
-    return drawMoment(view) || hasVariant || isElsewhere;
-}
-
-void drawTone(ToneSettings& tone) {
-    choose("tone mapping", tone.curve,
-           "How radiance becomes a screen's colour: cut off at 1, or with a shoulder (Khronos PBR Neutral, "
-           "AgX, ACES). The EXR is not touched");
-    ImGui::SliderFloat("exposure", &tone.exposure, -10.0f, 10.0f, "%.1f stops");
-    explain("Each stop doubles the brightness shown. The EXR is not touched");
+    return drawMoment(view) || hasVariant || hasLight || isElsewhere;
 }
 
 } // namespace lavalight

@@ -1,4 +1,4 @@
-// What is shown of the scene: camera, lens, environment, variant, moment; and how bright.
+// What is shown of the scene: camera, lens, environment, variant, moment.
 #pragma once
 
 #include "view/view_state.h"
@@ -7,8 +7,5 @@ namespace lavalight {
 
 // Draws the scene's settings. Returns whether the scene must be read again for what was changed.
 bool drawScene(ViewState& view);
-
-// Draws tone mapping and exposure, which restart nothing.
-void drawTone(ToneSettings& tone);
 
 } // namespace lavalight

@@ -62,6 +62,8 @@ void drawStatistics(const char* title, const LiveStatistics& s) {
     line(s.error < 0.0 ? "error not known yet"
                        : fmt::format("error {:.1f} % (relMSE {:.2g})", 100.0 * std::sqrt(s.error), s.error));
     explain("Estimated from the samples' variance as if they were independent; Sobol's are better than that");
+    if (s.denoisedSamples > 0)
+        line(fmt::format("denoised: {} of these samples", s.denoisedSamples));
     drawKernels(s);
     drawPaths(s.raysPerBounce);
     ImGui::PopID();

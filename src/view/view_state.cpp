@@ -21,4 +21,21 @@ void moveOrigin(ViewState& view, const Scene& before) {
         view.rig = CameraRig(view.home, view.scene->bounds);
 }
 
+void stepShown(ViewState& view, size_t side, int steps) {
+    view.shown[side] = stepped(view.shown[side], steps, view.whyNotDenoised.empty());
+}
+
+void toggleDenoised(ViewState& view, size_t side) {
+    if (view.whyNotDenoised.empty())
+        view.shown[side] = view.shown[side].isDenoised ? ShownLayer{} : kDenoisedColor;
+}
+
+void askForPlanes(ViewState& view) {
+    for (size_t side = 0; side < (view.isSplit ? 2u : 1u); ++side) {
+        view.settings.layers |= planesFor(view.shown[side]);
+        if (!view.shown[side].isDenoised)
+            view.asked |= planesFor(view.shown[side]);
+    }
+}
+
 } // namespace lavalight

@@ -18,6 +18,7 @@
 #include "session/lit_scene.h"
 #include "view/controls.h"
 #include "view/inspector_panel.h"
+#include "view/light_choice.h"
 #include "view/panel.h"
 
 namespace lavalight {
@@ -58,6 +59,7 @@ Viewer::Viewer(ViewerConfig config)
       render_(config.device, &Window::wake), loader_(loadOrder, &Window::wake),
       shaders_(std::move(config.shaders)) {
     view_.settings = resolveSchedule(view_.settings, render_.device());
+    view_.light = view_.settings.lighting;
     if (!config.watched.empty())
         watcher_.emplace(config.watched, shaders_, decisiveKernels(view_.settings), &Window::wake);
     view_.canBeHosted = render_.device().sharesMemory;
@@ -113,6 +115,8 @@ void Viewer::receive() {
     LiveNews news = render_.news();
     isReady_ = news.isReady;
     isFinished_ = news.isFinished;
+    if (news.whyNotDenoised != view_.whyNotDenoised)
+        doWithoutDenoiser(news.whyNotDenoised);
     for (size_t side = 0; side < 2; ++side) {
         if (!news.views[side])
             continue;
@@ -127,12 +131,14 @@ void Viewer::receive() {
         tell(error, true);
 }
 
-// The light of a scene that could not be loaded is not in use.
-void Viewer::keepLightOf(const LightingSettings& before) {
-    view_.settings.lighting.constant = before.constant;
-    view_.settings.lighting.mapFile = before.mapFile;
-    view_.settings.lighting.procedural = before.procedural;
-    view_.settings.lighting.sky = before.sky;
+// Whoever asked for the denoised picture is told why it does not come.
+void Viewer::doWithoutDenoiser(const std::string& why) {
+    view_.whyNotDenoised = why;
+    for (ShownLayer& shown : view_.shown)
+        if (shown.isDenoised) {
+            shown = {};
+            tell(why, true);
+        }
 }
 
 void Viewer::receiveScene() {
@@ -142,7 +148,7 @@ void Viewer::receiveScene() {
     const bool isOther = outcome->order.source != view_.source;
     if (!outcome->scene) {
         tell(outcome->error, true);
-        keepLightOf(sent_ ? sent_->settings.lighting : LightingSettings{});
+        view_.light = view_.settings.lighting;
         return;
     }
     for (const std::string& warning : outcome->scene->warnings)
@@ -151,7 +157,11 @@ void Viewer::receiveScene() {
     const std::shared_ptr<const Scene> before = std::exchange(view_.scene, outcome->scene);
     view_.source = outcome->order.source;
     view_.import = outcome->order.import;
+    takeLight(outcome->order.lighting, view_.settings.lighting);
+    if (!view_.scene->environmentMap)
+        view_.settings.lighting.rotation = 0.0f;
     if (isOther) {
+        view_.settings.layers = view_.asked = 0; // askForPlanes() brings those that are shown
         view_.home = view_.scene->cameras.front();
         view_.homeOptions.clear();
         view_.rig = CameraRig(view_.home, view_.scene->bounds);
@@ -207,26 +217,33 @@ void Viewer::takeKeys() {
             view_.rig = CameraRig(view_.home, view_.scene->bounds);
         else if (press.key == GLFW_KEY_B)
             view_.isSplit = !view_.isSplit;
+        else if (press.key == GLFW_KEY_V)
+            stepShown(view_, sideOfMouse(), (press.modifiers & GLFW_MOD_SHIFT) != 0 ? -1 : 1);
+        else if (press.key == GLFW_KEY_N)
+            toggleDenoised(view_, sideOfMouse());
         else if (press.key == GLFW_KEY_ESCAPE)
             inspection_.reset();
     }
 }
 
+size_t Viewer::sideOfMouse() const {
+    return view_.isSplit && ImGui::GetIO().MousePos.x > view_.splitAt * points().x ? 1 : 0;
+}
+
 void Viewer::takeDrops() {
     for (const std::string& path : window_.takeDrops()) {
         if (hasEnvironmentExtension(path)) {
-            view_.settings.lighting.mapFile = path;
-            view_.settings.lighting.constant.reset();
-            view_.settings.lighting.procedural = ProceduralEnvironment::none;
+            view_.light = {};
+            view_.light.mapFile = path;
             reload();
         } else {
-            loader_.order({path, {.allowsExternal = view_.import.allowsExternal}, view_.settings.lighting});
+            loader_.order({path, {.allowsExternal = view_.import.allowsExternal}, view_.light});
         }
     }
 }
 
 void Viewer::reload() {
-    loader_.order({view_.source, view_.import, view_.settings.lighting});
+    loader_.order({view_.source, view_.import, view_.light});
 }
 
 void Viewer::save() {
@@ -235,8 +252,9 @@ void Viewer::save() {
 }
 
 void Viewer::move() {
-    const ControlAnswer answer = moveCamera(view_.rig, points());
+    const ControlAnswer answer = moveCamera(view_.rig, isChord_, points());
     view_.isFlying = answer.isFlying;
+    isLetGo_ = answer.isLetGo && !answer.isFlying;
     if (answer.inspect)
         inspect(*answer.inspect, Purpose::look);
     if (answer.focus)
@@ -286,14 +304,20 @@ void Viewer::send() {
             ? view_.homeOptions
             : cameraOptions(view_.rig, static_cast<float>(pixels.x) / static_cast<float>(pixels.y),
                             view_.scene->origin);
-    if (!view_.isSplit)
+    if (!view_.isSplit) {
         view_.other = view_.settings.estimator;
-    LiveRequest request{view_.scene, view_.rig.camera(), view_.settings, std::nullopt,
-                        shaders_,    view_.tone,         false};
-    if (view_.isSplit)
+        view_.shown[1] = view_.shown[0];
+    }
+    askForPlanes(view_);
+    LiveRequest request{
+        view_.scene, view_.rig.camera(), view_.settings,       std::nullopt, shaders_,      view_.tone,
+        false,       view_.isSplit,      view_.exposesByImage, view_.shown,  view_.quality, view_.asked};
+    if (view_.isSplit && view_.other != view_.settings.estimator)
         request.other = view_.other;
     if (sent_ && sent_->camera != request.camera && sent_->scene == request.scene)
         lastMove_ = Clock::now();
+    if (isLetGo_)
+        lastMove_ = {};
     request.isMoving = Clock::now() - lastMove_ < kStillAfter;
     if (sent_ && *sent_ == request)
         return;

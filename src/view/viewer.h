@@ -38,7 +38,7 @@ class Viewer {
     enum class Purpose { look, centre, focus };
 
     void receive();
-    void keepLightOf(const LightingSettings& before);
+    void doWithoutDenoiser(const std::string& why);
     void receiveScene();
     void receiveShaders();
     void takeInspection(const PixelInspection& inspection);
@@ -53,6 +53,7 @@ class Viewer {
     void tell(const std::string& text, bool isError);
     void sayWhatTraces(); // where shaders keep the host from it
     void updateTitle();
+    [[nodiscard]] size_t sideOfMouse() const;
     [[nodiscard]] double patience() const;
     [[nodiscard]] glm::vec2 points() const; // size of the window in screen coordinates
 
@@ -69,7 +70,9 @@ class Viewer {
     Purpose purpose_ = Purpose::look;
     std::vector<std::pair<std::string, bool>> messages_; // and whether each is an error
     std::chrono::steady_clock::time_point lastMove_{};
-    int unsettled_ = 0; // frames
+    bool isChord_ = false; // moveCamera()
+    bool isLetGo_ = false; // a drag ended in this frame: the camera stays
+    int unsettled_ = 0;    // frames
     bool isReady_ = false;
     bool isFinished_ = false;
     std::string title_;

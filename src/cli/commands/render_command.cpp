@@ -36,7 +36,11 @@ void printSummary(const RenderReport& report) {
 RenderCommand::RenderCommand(CLI::App& app)
     : Command(app, "render", "Render a scene to an image"), options_(parser()), sceneOptions_(parser()),
       frames_(parser()), shaders_(parser()), tone_(parser()), background_(parser()), ground_(parser()),
-      layers_(parser()), denoise_(parser()), checkpoints_(parser()) {
+      layers_(parser()),
+      denoise_(parser(), {"Denoise the PNG, by Intel Open Image Denoise; the EXR keeps its colour and gets a "
+                          "layer denoised. Without a word: high",
+                          DenoiseQuality::high}),
+      checkpoints_(parser()) {
     shaders_.declareWatch(parser());
     parser()
         .add_option("input", scene_,

@@ -2,6 +2,7 @@
 
 #include <limits>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "base/error.h"
@@ -19,7 +20,10 @@ constexpr uint32_t kWaveSize = 1u << 16;
 
 ViewCommand::ViewCommand(CLI::App& app)
     : Command(app, "view", "Show a scene in a window while it is rendered"), options_(parser()),
-      sceneOptions_(parser()), shaders_(parser()), tone_(parser()) {
+      sceneOptions_(parser()), shaders_(parser()), tone_(parser()), background_(parser()),
+      denoise_(parser(),
+               {"Show the picture denoised, by Intel Open Image Denoise; N goes back. Without a word: fast",
+                DenoiseQuality::fast}) {
     shaders_.declareWatch(parser());
     parser().add_flag("--no-watch", isNotWatching_,
                       "Do not watch shaders, which is done where --shaders or ./shaders is there");
@@ -30,6 +34,7 @@ ViewCommand::ViewCommand(CLI::App& app)
 RenderPlan ViewCommand::plan() {
     RenderPlan plan = options_.plan(scene_);
     RenderSettings& settings = plan.settings;
+    settings.background = background_.settings();
     if (settings.stop.seconds > 0.0 || settings.stop.targetError > 0.0)
         throw UsageError("--time and --target-error: a window renders until it is closed, or to --spp");
     if (parser().count("--spp") == 0)
@@ -40,8 +45,6 @@ RenderPlan ViewCommand::plan() {
 }
 
 int ViewCommand::run() {
-    if (tone_.isAutomatic())
-        throw UsageError("--exposure: the window takes a number of stops; auto is for lavalight render");
     keepHeapSmall();
     const RenderPlan plan = this->plan();
     if (!isNotWatching_)
@@ -55,6 +58,14 @@ int ViewCommand::run() {
                    scene,           CameraRig(prepared.camera, scene->bounds),
                    prepared.camera, settings.provenance.cameraOptions,
                    settings,        tone_.settings()};
+    view.exposesByImage = tone_.isAutomatic();
+    view.tone.backdrop = background_.backdrop();
+    if (const std::optional<glm::vec3> color = background_.color())
+        view.backdrop = *color;
+    if (const std::optional<DenoiseQuality> quality = denoise_.quality()) {
+        view.shown.fill(kDenoisedColor);
+        view.quality = *quality;
+    }
     ViewerConfig config{std::move(view), plan.device, overlay,
                         shaders_.isWatching() ? shaders_.folder() : std::string()};
     gpu::checked("draw", "the window", [&] { Viewer(std::move(config)).run(); });

@@ -4,6 +4,8 @@
 #include <string>
 
 #include "cli/command.h"
+#include "cli/options/background_options.h"
+#include "cli/options/denoise_options.h"
 #include "cli/options/render_options.h"
 #include "cli/options/scene_options.h"
 #include "cli/options/shader_options.h"
@@ -23,6 +25,8 @@ class ViewCommand : public Command {
     SceneOptions sceneOptions_;
     ShaderOptions shaders_;
     ToneOptions tone_;
+    BackgroundOptions background_;
+    DenoiseOptions denoise_;
     std::string scene_ = "cornell-box";
     bool isNotWatching_ = false;
 };

@@ -31,11 +31,19 @@ BackgroundSettings BackgroundOptions::settings() const {
     return {Background::constant, *radiance};
 }
 
-std::optional<glm::vec3> BackgroundOptions::backdrop() const {
-    const std::optional<uint32_t> color = parseHexColor(background_);
-    if (!color)
+std::optional<glm::vec3> BackgroundOptions::color() const {
+    const std::optional<uint32_t> code = parseHexColor(background_);
+    if (!code)
         return std::nullopt;
-    return decodeSrgb8(*color);
+    const auto channel = [&](uint32_t shift) { return static_cast<float>(*code >> shift & 0xffu) / 255.0f; };
+    return glm::vec3(channel(16), channel(8), channel(0));
+}
+
+std::optional<glm::vec3> BackgroundOptions::backdrop() const {
+    std::optional<glm::vec3> linear = color();
+    for (glm::length_t c = 0; linear && c < 3; ++c)
+        (*linear)[c] = static_cast<float>(decodeSrgb((*linear)[c]));
+    return linear;
 }
 
 } // namespace lavalight

@@ -6,11 +6,9 @@
 
 namespace lavalight {
 
-DenoiseOptions::DenoiseOptions(CLI::App& parser) : parser_(&parser) {
-    parser
-        .add_option("--denoise", quality_,
-                    "Denoise the PNG, by Intel Open Image Denoise; the EXR keeps its colour and gets a layer "
-                    "denoised. Without a word: high")
+DenoiseOptions::DenoiseOptions(CLI::App& parser, const DenoiseUse& use)
+    : parser_(&parser), default_(use.quality) {
+    parser.add_option("--denoise", quality_, use.help)
         ->type_name("high|balanced|fast")
         ->expected(0, 1)
         ->check(CLI::Validator(
@@ -31,7 +29,7 @@ std::optional<DenoiseQuality> DenoiseOptions::quality() const {
     for (const SettingName<DenoiseQuality>& name : settingNames<DenoiseQuality>())
         if (name.name == quality_)
             return name.value;
-    return DenoiseQuality::high;
+    return default_;
 }
 
 } // namespace lavalight

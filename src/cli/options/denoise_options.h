@@ -10,10 +10,16 @@
 
 namespace lavalight {
 
+// What --denoise is for where it stands, and what it means without a word.
+struct DenoiseUse {
+    std::string help;
+    DenoiseQuality quality;
+};
+
 // Declares --denoise on a parser. Must outlive the parsing; the parser points into it.
 class DenoiseOptions {
   public:
-    explicit DenoiseOptions(CLI::App& parser);
+    DenoiseOptions(CLI::App& parser, const DenoiseUse& use);
     DenoiseOptions(const DenoiseOptions&) = delete;
     DenoiseOptions& operator=(const DenoiseOptions&) = delete;
 
@@ -22,6 +28,7 @@ class DenoiseOptions {
 
   private:
     CLI::App* parser_; // asked whether the option was given
+    DenoiseQuality default_;
     std::string quality_;
 };
 

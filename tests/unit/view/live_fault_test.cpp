@@ -39,7 +39,7 @@ class LiveFault : public testing::Test {
     [[nodiscard]] std::vector<uint32_t> finish() {
         while (side_.hasWork())
             side_.step();
-        return side_.view().picture.pixels;
+        return side_.view({}, 0.0f).picture.pixels;
     }
     [[nodiscard]] std::vector<uint32_t> finish(const LiveRequest& request) {
         side_.show(request);

@@ -89,6 +89,7 @@ TEST_F(LiveRenderTest, ShowsTheImageOfARender) {
 TEST_F(LiveRenderTest, ShowsTwoSettingsEachWithItsOwnImage) {
     LiveRequest request = requestFor("cornell-box");
     request.other = request.settings.estimator;
+    request.isSplit = true;
     request.other->nextEventEstimation = false;
     render_.show(request);
     const LiveNews news = waitFor([](const LiveNews& n) { return n.isFinished && n.views[1]; });
@@ -170,6 +171,7 @@ TEST_F(LiveRenderTest, OrdersOfEveryKindInAnyOrderEndInTheImageOfTheLastOne) {
         request.camera.position.x += 0.01f * static_cast<float>(random() % 3);
         if (random() % 3 == 0)
             request.other = EstimatorSettings{};
+        request.isSplit = request.other.has_value();
         render_.show(request);
         if (random() % 2 == 0)
             render_.inspect({random() % 40, random() % 30}, 0);

@@ -25,6 +25,10 @@ TEST(RestartsImage, WhatIsOnlyShownOtherwiseDoesNot) {
     EXPECT_EQ(after([](LiveRequest& r) { r.tone.exposure = 1.0f; }), Restart::nothing);
     EXPECT_EQ(after([](LiveRequest& r) { r.tone.curve = ToneCurve::agx; }), Restart::nothing);
     EXPECT_EQ(after([](LiveRequest& r) { r.other = EstimatorSettings{}; }), Restart::nothing);
+    EXPECT_EQ(after([](LiveRequest& r) { r.isSplit = true; }), Restart::nothing);
+    EXPECT_EQ(after([](LiveRequest& r) { r.exposesByImage = true; }), Restart::nothing);
+    EXPECT_EQ(after([](LiveRequest& r) { r.shown[0] = kDenoisedColor; }), Restart::nothing);
+    EXPECT_EQ(after([](LiveRequest& r) { r.tone.backdrop = glm::vec3(1.0f); }), Restart::nothing);
 }
 
 TEST(RestartsImage, WhateverChangesTheMeanOrTheNoiseDoes) {
@@ -32,6 +36,9 @@ TEST(RestartsImage, WhateverChangesTheMeanOrTheNoiseDoes) {
     EXPECT_EQ(after([](LiveRequest& r) { r.settings.image.width = 7; }), Restart::image);
     EXPECT_EQ(after([](LiveRequest& r) { r.settings.estimator.roulette = Roulette::off; }), Restart::image);
     EXPECT_EQ(after([](LiveRequest& r) { r.settings.estimator.seed = 3; }), Restart::image);
+    EXPECT_EQ(after([](LiveRequest& r) { r.settings.layers = 1u << kDepthPlane; }), Restart::image);
+    EXPECT_EQ(after([](LiveRequest& r) { r.settings.background.kind = Background::transparent; }),
+              Restart::image);
     EXPECT_EQ(after([](LiveRequest& r) { r.settings.lighting.rotation = 3.0f; }), Restart::image);
     EXPECT_EQ(after([](LiveRequest& r) { r.isMoving = true; }), Restart::image);
     EXPECT_EQ(after([](LiveRequest& r) { r.settings.work.schedule = Schedule::wavefront; }), Restart::image);

@@ -135,11 +135,11 @@ class PanelTest : public testing::Test {
     bool wantsSave_ = false;
 };
 
-// The panel with Scene open, and with Estimator and Screen closed.
+// The panel with Scene open, and with Estimator and View closed.
 class ScenePanelTest : public PanelTest {
   protected:
     ScenePanelTest() {
-        for (const char* header : {"Estimator", "Screen", "Scene"})
+        for (const char* header : {"Estimator", "View", "Scene"})
             click("Lavalight", header);
     }
 };
@@ -196,6 +196,37 @@ TEST_F(ScenePanelTest, EnvironmentIsTurnedAndDimmedWithoutReadingTheScene) {
     EXPECT_FALSE(wantsScene_);
 }
 
+TEST_F(ScenePanelTest, AnotherLightAsksForTheSceneAndTheOldOneShinesUntilItIsThere) {
+    choose("light", "##1");
+    EXPECT_EQ(view_.light.procedural, ProceduralEnvironment::studio);
+    EXPECT_EQ(view_.settings.lighting, LightingSettings{});
+    EXPECT_TRUE(wantsScene_);
+    wantsScene_ = false;
+    choose("light", "##1");
+    EXPECT_FALSE(wantsScene_) << "it shines already";
+    choose("light", "##2");
+    drag("Lavalight", "sun's elevation", -60.0f);
+    drag("Lavalight", "turbidity", 60.0f);
+    EXPECT_EQ(view_.light.procedural, ProceduralEnvironment::sky);
+    EXPECT_NE(view_.light.sky.sunElevation, SkySettings{}.sunElevation);
+    EXPECT_NE(view_.light.sky.turbidity, SkySettings{}.turbidity);
+    EXPECT_TRUE(wantsScene_);
+    choose("light", "##3");
+    EXPECT_EQ(view_.light.constant, glm::vec3(1.0f));
+    EXPECT_EQ(view_.light.procedural, ProceduralEnvironment::none);
+    choose("light", "##0");
+    EXPECT_FALSE(bringsLight(view_.light));
+}
+
+TEST_F(ScenePanelTest, AMapThatWasUsedIsOfferedAgain) {
+    view_.light.mapFile = "maps/garden.hdr";
+    frame();
+    choose("light", "##3");
+    EXPECT_TRUE(view_.light.mapFile.empty());
+    choose("light", "##4");
+    EXPECT_EQ(view_.light.mapFile, "maps/garden.hdr");
+}
+
 TEST_F(ScenePanelTest, VariantAndMomentAskForTheScene) {
     choose("variant", "##2");
     EXPECT_EQ(view_.import.variant, "street");
@@ -221,6 +252,54 @@ TEST_F(ScenePanelTest, AScenesPanelOffersOnlyWhatItHas) {
     EXPECT_NONFATAL_FAILURE(find("Lavalight", "map's rotation"), "no map's rotation");
 }
 
+TEST_F(PanelTest, PictureIsChosenForEachSide) {
+    choose("picture", "depth");
+    EXPECT_EQ(view_.shown[0], (ShownLayer{kDepthPlane, false}));
+    view_.isSplit = true;
+    choose("right", "denoised");
+    EXPECT_EQ(view_.shown[1], kDenoisedColor);
+    choose("denoiser", "high");
+    EXPECT_EQ(view_.quality, DenoiseQuality::high);
+    choose("left", "color");
+    EXPECT_EQ(view_.shown[0], ShownLayer{});
+}
+
+TEST_F(PanelTest, WithoutADenoiserThePanelSaysHowToGetItAndOffersNone) {
+    view_.whyNotDenoised = "cannot denoise: there is no library; get it";
+    EXPECT_NE(text().find(view_.whyNotDenoised), std::string::npos);
+    choose("picture", "denoised");
+    EXPECT_EQ(view_.shown[0], ShownLayer{});
+}
+
+TEST_F(PanelTest, BackgroundIsNothingAColourOrARadiance) {
+    choose("background", "transparent");
+    EXPECT_EQ(view_.settings.background.kind, Background::transparent);
+    EXPECT_FALSE(view_.tone.backdrop);
+    view_.backdrop = glm::vec3(0.5f, 1.0f, 0.0f);
+    choose("background", "a colour");
+    EXPECT_EQ(view_.settings.background.kind, Background::transparent);
+    ASSERT_TRUE(view_.tone.backdrop);
+    EXPECT_NEAR(view_.tone.backdrop->x, 0.2159f, 1e-4f) << "the linear value of #80";
+    choose("background", "a radiance");
+    EXPECT_EQ(view_.settings.background.kind, Background::constant);
+    EXPECT_FALSE(view_.tone.backdrop);
+    choose("background", "environment");
+    EXPECT_EQ(view_.settings.background, BackgroundSettings{});
+}
+
+TEST_F(PanelTest, ExposureIsTheImagesOrStaysWhereThatWas) {
+    statistics_ = LiveStatistics{};
+    statistics_->exposure = 1.5f;
+    click("Lavalight", "exposure by the image");
+    EXPECT_TRUE(view_.exposesByImage);
+    moveTo(ImVec2(700.0f, 900.0f)); // what a tick means would end the log
+    const std::string shown = text();
+    EXPECT_NE(shown.find("1.5 stops"), std::string::npos) << shown;
+    click("Lavalight", "exposure by the image");
+    EXPECT_FALSE(view_.exposesByImage);
+    EXPECT_EQ(view_.tone.exposure, 1.5f);
+}
+
 TEST_F(PanelTest, SavesWithItsButton) {
     click("Lavalight", "save EXR and PNG");
     EXPECT_TRUE(wantsSave_);
@@ -238,6 +317,7 @@ TEST_F(PanelTest, PresetChangesTheEstimatorAndKeepsTheSeed) {
 }
 
 TEST_F(PanelTest, SettingsThatOthersNeedComeAndGoWithThem) {
+    click("Lavalight", "View");
     const EstimatorSettings& estimator = view_.settings.estimator;
     EXPECT_NONFATAL_FAILURE(find("Lavalight", "left/survival"), "no left/survival");
     choose("left/roulette", "constant");
@@ -257,7 +337,7 @@ TEST_F(PanelTest, SettingsThatOthersNeedComeAndGoWithThem) {
 }
 
 TEST_F(PanelTest, TheRightSideHasAnEstimatorOfItsOwn) {
-    click("Lavalight", "left/compare");
+    click("Lavalight", "side by side");
     ASSERT_TRUE(view_.isSplit);
     click("Lavalight", "Estimator");
     click("Lavalight", "right/next-event estimation");
