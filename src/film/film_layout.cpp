@@ -187,7 +187,8 @@ std::vector<std::string> layerNames(uint32_t asked) {
 
 std::vector<uint32_t> offeredRows() {
     constexpr uint32_t kNeeded = 1u << kColorPlane | 1u << kCoveragePlane | 1u << kHitsPlane |
-                                 1u << kGuideAlbedoPlane | 1u << kGuideNormalPlane;
+                                 1u << kShadowPlane | 1u << kBehindPlane | 1u << kGuideAlbedoPlane |
+                                 1u << kGuideNormalPlane;
     std::vector<uint32_t> rows;
     for (uint32_t row = 0; row < kFilmPlaneCount; ++row)
         if ((kNeeded >> row & 1u) == 0)

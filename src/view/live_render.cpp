@@ -58,6 +58,12 @@ struct LiveRender::Work {
                 return false;
         return true;
     }
+    // Gives up what was ordered of images that a request will start again, which then has the processors.
+    void dropOutdated(const LiveRequest& request) {
+        if (sides[0].hasImage() && restartsImage(sides[0].request(), request) != Restart::nothing)
+            for (size_t side = 0; side < 2; ++side)
+                denoiser.restart(side);
+    }
     // Gives up what was ordered of images that have started again.
     void dropStale() {
         for (size_t side = 0; side < 2; ++side)
@@ -157,13 +163,24 @@ void LiveRender::loop() {
     }
 }
 
+// Whether another image is asked for, so that nothing slow shall be done to this one. A picture of a moving
+// camera is shown all the same: there is always a newer one.
+bool LiveRender::isOutdated(const Work& work) {
+    if (!work.sides[0].hasImage() || work.sides[0].request().isMoving)
+        return false;
+    const std::lock_guard lock(mutex_);
+    return wanted_.has_value() || isEnding_;
+}
+
 void LiveRender::advance(Work& work) {
     if (LiveSide* side = work.isHeld() ? nullptr : work.next())
         side->step();
-    orderDenoising(work);
     const bool isDone = work.next() == nullptr;
-    if (work.isComplete() && (work.isNew || isDone || Clock::now() - work.shown >= kPictureEvery))
+    const bool isDue = work.isNew || isDone || Clock::now() - work.shown >= kPictureEvery;
+    if (work.isComplete() && isDue && !isOutdated(work))
         publish(work);
+    if (!isOutdated(work)) // last: a picture that is on its way shall not wait for processors
+        orderDenoising(work);
 }
 
 // The side that has waited longest comes first: the denoiser takes one at a time.
@@ -247,6 +264,7 @@ void LiveRender::Work::show(gpu::Device& device, const LiveRequest& request) {
 // What fails for one request may do for another; only without a device nothing will.
 void LiveRender::change(Work& work, const LiveRequest& request) {
     work.isNew = true;
+    work.dropOutdated(request);
     try {
         work.show(device_, request);
     } catch (const gpu::DeviceLost&) {

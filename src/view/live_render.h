@@ -71,6 +71,7 @@ class LiveRender {
     [[nodiscard]] bool takeOrders(Work& work);
     void takeDenoised(Work& work);
     void orderDenoising(Work& work);
+    [[nodiscard]] bool isOutdated(const Work& work);
     void change(Work& work, const LiveRequest& request);
     void publish(Work& work);
     void perform(Work& work, const Task& task);

@@ -77,8 +77,8 @@ void Viewer::run() {
         takeDrops();
         move();
         draw();
+        send(); // before the frame is drawn, which takes processors, too
         presenter_.endFrame(view_.isSplit ? view_.splitAt : 1.0f);
-        send();
         updateTitle();
         presenter_.requireNoValidationMessages();
     }

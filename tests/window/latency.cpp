@@ -1,5 +1,7 @@
 // Milliseconds from a move of the mouse to its picture on the desktop: a measurement, no test. Prints the
-// median and the range of a hundred moves. Arguments: those of lavalight view.
+// median and the range of a hundred moves. Arguments: those of lavalight view; with --denoise, moves come at
+// different moments of denoising, too. It knows pictures of a moving camera by their coarseness, which they
+// have where 30 ms are too short for a sample of all pixels.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -41,6 +43,15 @@ class Watcher {
         XDestroyImage(image);
         return pixels;
     }
+    // Whether a third of the rows are those above them.
+    [[nodiscard]] bool isCoarse() const {
+        const std::string pixels = look();
+        const size_t row = pixels.size() / kSide;
+        size_t equal = 0;
+        for (size_t y = 1; y < kSide; ++y)
+            equal += pixels.compare(y * row, row, pixels, (y - 1) * row, row) == 0 ? 1 : 0;
+        return 3 * equal >= kSide;
+    }
     void moveMouse(int right) const {
         ::XWarpPointer(display_, None, None, 0, 0, 0, 0, right, 0);
         ::XSync(display_, False);
@@ -54,33 +65,32 @@ class Watcher {
     int y_ = 0;
 };
 
-// Time until the picture is another one; the patience where it never is.
+// Time until the picture is that of a moving camera; the patience where it never is.
 double milliseconds(const Watcher& watcher, int right) {
-    const std::string before = watcher.look();
     const auto start = std::chrono::steady_clock::now();
     watcher.moveMouse(right);
-    while (watcher.look() == before && std::chrono::steady_clock::now() - start < kPatience)
+    while (!watcher.isCoarse() && std::chrono::steady_clock::now() - start < kPatience)
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
-// One sample a pixel: once it is there, only moves change the picture.
 int measure(std::vector<std::string> words) {
     const Desktop desktop;
     const TemporaryFolder folder;
     words.insert(words.begin(), "view");
-    words.insert(words.end(), {"--spp", "1"});
     RunningProgram program(words, folder.path());
     const std::string window = desktop.findWindow("Lavalight");
-    while (desktop.titleOf(window).find(", done") == std::string::npos)
+    while (desktop.titleOf(window).find(" 2 samples") == std::string::npos)
         std::this_thread::sleep_for(std::chrono::milliseconds(50));
     desktop.input("windowfocus --sync " + window + " key Tab mousemove --window " + window +
                   " 320 240 mousedown 1");
     const Watcher watcher(std::stoul(window));
     std::vector<double> times;
     for (int i = 0; i < kMoves; ++i) {
-        // At different moments of what the program does meanwhile; full resolution has come by then.
-        std::this_thread::sleep_for(std::chrono::milliseconds(600 + 7 * i));
+        // At different moments of what the program does meanwhile: the camera is still after 200 ms.
+        std::this_thread::sleep_for(std::chrono::milliseconds(250 + 7 * i));
+        while (watcher.isCoarse())
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
         times.push_back(milliseconds(watcher, i % 2 == 0 ? 8 : -8));
     }
     std::sort(times.begin(), times.end());

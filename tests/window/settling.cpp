@@ -55,8 +55,8 @@ int measure(const std::vector<std::string>& options) {
     desktop.input("windowfocus --sync " + window + " key Tab mousemove --window " + window + " 320 240");
     std::vector<double> flips;
     for (int i = 0; i < kDrags; ++i) {
-        desktop.input("mousedown 1 sleep 0.1 mousemove_relative 40 0 sleep 0.2 mouseup 1 sleep 1 "
-                      "mousedown 1 sleep 0.1 mousemove_relative -- -40 0 sleep 0.2 mouseup 1");
+        desktop.input("mousedown 1 sleep 0.3 mousemove_relative 40 0 sleep 0.3 mouseup 1 sleep 1 "
+                      "mousedown 1 sleep 0.3 mousemove_relative -- -40 0 sleep 0.3 mouseup 1");
         const auto letGo = std::chrono::steady_clock::now();
         std::this_thread::sleep_until(letGo + kSecond);
         flips.push_back(flipOf(desktop.shoot(window), folder.path()));
