@@ -64,7 +64,7 @@ std::vector<uint32_t> displayOf(const Rendering& layers, uint32_t row, float sca
     const std::vector<glm::vec3>& values = layer->mean.pixels;
     const Layer* hits = shape.isPerHit != 0 ? layers.find(planeName(kHitsPlane)) : nullptr;
     const auto has = [&](size_t i) { return hits == nullptr || hits->mean.pixels[i].x > 0.0f; };
-    const bool isColor = shape.components == 3 && shape.isSigned == 0;
+    const bool isColor = shape.components == 3 && shape.isSigned != 1;
     Range range;
     if (!isColor && row != kNormalPlane)
         for (size_t i = 0; i < values.size(); ++i)
@@ -72,7 +72,7 @@ std::vector<uint32_t> displayOf(const Rendering& layers, uint32_t row, float sca
                 range.take(values[i]);
     const auto shown = [&](const glm::vec3& value) {
         if (isColor)
-            return fromLinear(row == kEmissionPlane ? scale * value : value);
+            return fromLinear(row == kAlbedoPlane ? value : scale * value);
         if (row == kNormalPlane)
             return fromSignal(0.5f * value + 0.5f);
         const glm::vec3 share = range.share(value);

@@ -18,7 +18,7 @@ namespace lavalight {
 //     depth               the nearest white, the farthest all but black, what was not hit black
 //     position, signed    each component from its least value in the picture to its largest
 //     one component       grey, from the least to the largest
-//     three components    colours, clamped to [0, 1]; emission is radiance
+//     three components    colours, clamped to [0, 1]; all but albedo are radiance
 [[nodiscard]] std::vector<uint32_t> displayOf(const Rendering& layers, uint32_t row, float scale);
 
 // Puts a chequered ground of two greys behind pixels of straight alpha, which are opaque from then on.

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <exception>
 #include <numeric>
 #include <stdexcept>
 #include <string>
@@ -71,5 +72,10 @@ int measure(const std::vector<std::string>& options) {
 } // namespace lavalight::test
 
 int main(int argc, char** argv) {
-    return lavalight::test::measure({argv + 1, argv + argc});
+    try {
+        return lavalight::test::measure({argv + 1, argv + argc});
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "settling: %s\n", error.what());
+        return EXIT_FAILURE;
+    }
 }
