@@ -7,9 +7,9 @@ layout(set = 0, binding = BINDING_FILM, std430) buffer Film { uint film[]; };
 // The film's planes: bit i for row i of FILM_PLANES, and kNegativeWeights.
 layout(constant_id = CONSTANT_FILM_PLANES) const uint kPlanesAsked = 1u;
 
-bool filmHas(uint plane) {
-    return (kPlanesAsked >> plane & 1u) != 0u;
-}
+// An expression, not a function: it is a constant once the kernel is specialised, and the branches of planes that nobody asked
+// for go before functions are inlined for each plane.
+#define FILM_HAS(plane) ((kPlanesAsked >> (plane) & 1u) != 0u)
 
 struct ComponentSums {
     uvec4 sum; // three words without sign

@@ -19,7 +19,7 @@ SHARED_CONST float kMostSigned = 140737488355328.0f;
 SHARED_CONST uint kSquareWords = 4u;
 SHARED_CONST int kSquareLowestExponent = -64;
 
-// Which values a plane has.
+// Which values a plane has. A sum with a sign takes a word more.
 SHARED_CONST uint kWithoutSign = 0u; // negative ones are counted, and taken for 0
 SHARED_CONST uint kWithSign = 1u;
 SHARED_CONST uint kWeighted = 2u; // those of samples have the weight of the pixel filter, which may be negative
@@ -67,7 +67,7 @@ SHARED_CONST uint kBehindPlane = 15u; // background that those paths see, which 
 
 // All planes that there are, a row each in the order of their numbers: number, name of the layer, channels in EXR files,
 // components, sign, hasSquares, isPerHit. A film has the colour and those that were asked for, in this order;
-// shaders/kernels/accumulate.comp says what fills them.
+// shaders/scene/film_sink.glsl says what fills them.
 #define FILM_PLANES(PLANE) \
     PLANE(kColorPlane, "color", "R,G,B", 3u, kWeighted, 1u, 0u) \
     PLANE(kCoveragePlane, "coverage", "A", 1u, kWeighted, 0u, 0u) \
@@ -94,7 +94,7 @@ SHARED_CONST uint kObjectIds = 0x40000000u;
 SHARED_CONST uint kMaterialIds = 0x20000000u;
 SHARED_CONST uint kCryptomatte = 0x10000000u; // both, as files that compositing programs read
 
-// Where accumulate.comp puts the surface of each sample for the host: that of a sample that is in no plane.
+// Where the sink puts the surface of each sample for the host: that of a sample that is in no plane.
 SHARED_CONST uint kDroppedSample = 0xfffffffeu;
 
 #define FILM_PLANE_SHAPE(number, name, channels, components, sign, hasSquares, isPerHit) \
@@ -104,11 +104,25 @@ SHARED_CONST uint kDroppedSample = 0xfffffffeu;
 SHARED_CONST FilmPlane kFilmPlanes[] = {FILM_PLANES(FILM_PLANE_SHAPE)};
 SHARED_CONST uint kFilmPlaneCount = 0u FILM_PLANES(FILM_PLANE_COUNT);
 
-// The plane of a row, as a film has it.
+// The fields of a row, and of a plane as a film has it: expressions, which are constants where `plane` is one. Compilers do not
+// see through a table.
+SHARED_FUNCTION uint signOf(uint plane) {
+#define FILM_PLANE_SIGN(number, name, channels, components, sign, hasSquares, isPerHit) + (number == plane ? sign : 0u)
+    return 0u FILM_PLANES(FILM_PLANE_SIGN);
+}
+
 SHARED_FUNCTION FilmPlane shapeOf(uint plane, uint asked) {
-    FilmPlane shape = kFilmPlanes[plane];
-    if (shape.isSigned == kWeighted)
-        shape.isSigned = (asked & kNegativeWeights) != 0u ? 1u : 0u;
+#define FILM_PLANE_COMPONENTS(number, name, channels, components, sign, hasSquares, isPerHit) \
+    + (number == plane ? components : 0u)
+#define FILM_PLANE_SQUARES(number, name, channels, components, sign, hasSquares, isPerHit) \
+    + (number == plane ? hasSquares : 0u)
+#define FILM_PLANE_PER_HIT(number, name, channels, components, sign, hasSquares, isPerHit) \
+    + (number == plane ? isPerHit : 0u)
+    FilmPlane shape;
+    shape.components = 0u FILM_PLANES(FILM_PLANE_COMPONENTS);
+    shape.isSigned = signOf(plane) == kWeighted ? asked >> 31u : signOf(plane);
+    shape.hasSquares = 0u FILM_PLANES(FILM_PLANE_SQUARES);
+    shape.isPerHit = 0u FILM_PLANES(FILM_PLANE_PER_HIT);
     return shape;
 }
 
@@ -119,7 +133,8 @@ SHARED_FUNCTION FilmPlane shapeOf(uint plane, uint asked) {
 // The sum is written out, row by row, since compilers see through no loop here.
 SHARED_FUNCTION uint firstWordOf(uint plane, uint asked) {
 #define FILM_PLANE_WORDS(number, name, channels, components, sign, hasSquares, isPerHit) \
-    + (number < plane && (asked >> number & 1u) != 0u ? wordsOf(shapeOf(number, asked)) : 0u)
+    + (number < plane ? (asked >> number & 1u) * components * \
+                            (kSumWords + (sign == kWeighted ? asked >> 31u : sign) + hasSquares * kSquareWords) : 0u)
     return 0u FILM_PLANES(FILM_PLANE_WORDS);
 }
 

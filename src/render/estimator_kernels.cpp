@@ -57,6 +57,14 @@ EstimatorKernels::EstimatorKernels(gpu::Device& device, std::vector<KernelVarian
     seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+// The sink of films that have layers is much to compile.
+std::string_view EstimatorKernels::fileOf(const KernelVariant& variant) const {
+    constexpr uint32_t kWithoutLayers = 1u << kColorPlane | 1u << kCoveragePlane | kNegativeWeights;
+    const bool hasLayers = (planes_ & ~kWithoutLayers) != 0;
+    return variant.kernel == "accumulate" && hasLayers ? std::string_view("accumulate_layers")
+                                                       : variant.kernel;
+}
+
 std::vector<gpu::SpecialisationConstant> EstimatorKernels::constantsOf(const KernelVariant& variant) const {
     // Records are laid out by the features of the whole scene.
     std::vector<gpu::SpecialisationConstant> constants =
@@ -70,7 +78,7 @@ KernelMap EstimatorKernels::compile(gpu::Device& device, std::span<const KernelV
                                     const KernelSource& source) const {
     std::vector<gpu::KernelCode> codes; // in order, so that of several with errors the same one throws
     for (const KernelVariant* variant : variants)
-        codes.push_back(source(variant->kernel));
+        codes.push_back(source(fileOf(*variant)));
     std::vector<std::optional<gpu::Kernel>> built(variants.size());
     forEachInParallel(variants.size(), [&](size_t i) {
         built[i].emplace(device, std::move(codes[i]), constantsOf(*variants[i]));
@@ -88,13 +96,13 @@ std::vector<std::string> EstimatorKernels::changed(const KernelSource& source) c
     std::vector<std::string> names;
     for (const KernelVariant& variant : variants_)
         if (isChanged(variant, source) &&
-            std::find(names.begin(), names.end(), variant.kernel) == names.end())
-            names.emplace_back(variant.kernel);
+            std::find(names.begin(), names.end(), fileOf(variant)) == names.end())
+            names.emplace_back(fileOf(variant));
     return names;
 }
 
 bool EstimatorKernels::isChanged(const KernelVariant& variant, const KernelSource& source) const {
-    return source(variant.kernel).content != (*this)[variant.name].code().content;
+    return source(fileOf(variant)).content != (*this)[variant.name].code().content;
 }
 
 KernelMap EstimatorKernels::compileChanged(gpu::Device& device, const KernelSource& source) const {

@@ -70,6 +70,8 @@ class EstimatorKernels {
     [[nodiscard]] double seconds() const { return seconds_; }
 
   private:
+    // The file in shaders/kernels that a variant is compiled of.
+    [[nodiscard]] std::string_view fileOf(const KernelVariant& variant) const;
     [[nodiscard]] bool isChanged(const KernelVariant& variant, const KernelSource& source) const;
     [[nodiscard]] std::vector<gpu::SpecialisationConstant> constantsOf(const KernelVariant& variant) const;
     // On all processors. Throws Error as `source` does.

@@ -204,13 +204,12 @@ constexpr std::array kRows{
                      "have fewer stairs"},
     SettingRow{
         .name = "filter-radius",
-        .values = PositiveNumber{&E::filterRadius, std::numeric_limits<float>::infinity(), 0.1f, 4.0f, "auto",
-                                 1.0f},
+        .values =
+            PositiveNumber{&E::filterRadius, std::numeric_limits<float>::infinity(), 0.1f, 4.0f, "own", 1.0f},
         .decidesBits = true,
         .mayChangeMean = true,
-        .help =
-            "Pixels from the middle to where the filter ends; auto: 0.5 of box, 1 of tent, 2 of mitchell, "
-            "1.5 of the others",
+        .help = "Pixels from the middle to where the filter ends; own: 0.5 of box, 1 of tent, 2 of mitchell, "
+                "1.5 of the others",
         .panelLabel = "filter radius",
         .panelHelp = "Pixels from the middle to where the filter ends"},
     SettingRow{.name = "seed",

@@ -78,8 +78,9 @@ Image ofCovered(Image image, const std::optional<Image>& coverage) {
 
 // Shares where their 3 by 3 pixels are alike, and what a denoiser makes of them elsewhere: at edges, and
 // behind what is transparent by chance.
-std::optional<Image> denoisedShares(const Image& shares, const DenoiseGuides& guides, const Denoiser& denoiser,
-                                    DenoiseQuality quality, const KeepGoing& keepGoing) {
+std::optional<Image> denoisedShares(const Image& shares, const DenoiseGuides& guides,
+                                    const Denoiser& denoiser, DenoiseQuality quality,
+                                    const KeepGoing& keepGoing) {
     Image grey(shares.width, shares.height);
     for (size_t i = 0; i < grey.pixels.size(); ++i)
         grey.pixels[i] = glm::vec3(shares.pixels[i].x);

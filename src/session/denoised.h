@@ -19,8 +19,8 @@ inline constexpr const char* kDenoisedShadow = "denoised-shadow";
 // lamp among dark walls would come out too bright. Where there is a layer of coverage, it is
 // denoised too (kDenoisedCoverage), and colour is denoised as if all were covered. So are the shadows that
 // the ground caught, as a share of the light there, whatever is seen through them (kDenoisedShadow). Takes
-// out the layers that no one asked for (`asked`: RenderSettings::layers). False, with the rendering as it was,
-// where `keepGoing` gave it up. Throws Error as the library does.
+// out the layers that no one asked for (`asked`: RenderSettings::layers). False, with the rendering as it
+// was, where `keepGoing` gave it up. Throws Error as the library does.
 bool denoise(Rendering& rendering, const Denoiser& denoiser, DenoiseQuality quality, uint32_t asked,
              bool isSharp, const KeepGoing& keepGoing = {});
 

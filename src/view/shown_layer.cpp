@@ -5,10 +5,20 @@
 #include "render/settings.h"
 
 namespace lavalight {
+namespace {
+
+// Motion leads to the next frame, and a window has none.
+std::vector<uint32_t> rowsOfWindows() {
+    std::vector<uint32_t> rows = offeredRows();
+    std::erase(rows, kMotionPlane);
+    return rows;
+}
+
+} // namespace
 
 std::vector<ShownLayer> shownLayers() {
     std::vector<ShownLayer> all{ShownLayer{}, kDenoisedColor};
-    for (const uint32_t row : offeredRows())
+    for (const uint32_t row : rowsOfWindows())
         all.push_back({row, false});
     return all;
 }
@@ -32,7 +42,7 @@ uint32_t planesFor(const ShownLayer& shown) {
         return kDenoisingLayers;
     uint32_t planes = 0;
     if (shown.row != kColorPlane)
-        for (const uint32_t row : offeredRows())
+        for (const uint32_t row : rowsOfWindows())
             planes |= 1u << row;
     return planes;
 }

@@ -37,7 +37,7 @@ class FilmTest : public DeviceTest {
   protected:
     // Adds one sample per pixel and wave.
     void accumulate(const Film& film, const std::vector<std::vector<Path>>& waves) {
-        const gpu::Kernel kernel(device(), embeddedKernel("accumulate"));
+        const gpu::Kernel kernel(device(), embeddedKernel("accumulate_layers"));
         accumulate(film, waves, kernel, 1);
     }
     // Adds `together` samples per pixel and wave: paths lie pixel by pixel.
@@ -54,9 +54,9 @@ class FilmTest : public DeviceTest {
         gpu::ResourceTable resources;
         resources.set("Frame", frame);
         resources.set("Paths", paths);
-        const gpu::Buffer layers(device(), "layers", sizeof(PathLayers),
-                                 gpu::BufferUse::storage); // that none reads
-        resources.set("Layers", layers);
+        const gpu::Buffer unused(device(), "layers", sizeof(PathLayers), gpu::BufferUse::storage);
+        for (const char* name : {"Layers", "Triangles", "Surfaces"}) // that none reads
+            resources.set(name, unused);
         resources.set("Film", film.bands().front().sums);
         resources.set("Tallies", film.tallies());
         const gpu::BoundKernel bound(device(), kernel, resources);
@@ -163,8 +163,8 @@ class SignedLayerTest : public FilmTest {
         const std::string line = fmt::format("    if (plane == {}u) return vec3(paths[slot].radiance.x - "
                                              "paths[slot].radiance.y, -paths[slot].radiance.z, 0.0);\n",
                                              kLean);
-        return patchedKernel("accumulate", {{"shared/film.h", row, row + added},
-                                            {"kernels/accumulate.comp", fill, line + fill}});
+        return patchedKernel("accumulate_layers", {{"shared/film.h", row, row + added},
+                                                   {"scene/film_sink.glsl", fill, line + fill}});
     }
     [[nodiscard]] static FilmLayout layout(bool hasSquares) {
         std::vector<LayerPlane> planes(colorLayout().planes().begin(), colorLayout().planes().end());

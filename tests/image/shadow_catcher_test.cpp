@@ -211,8 +211,8 @@ TEST_F(ShadowCatcher, FilteredShadowsAreBetweenNoneAndAll) {
                 Scene scene = withBall(0.5f, x).environment(glm::vec3(1.0f)).build();
                 scene.punctualLights.push_back(pointLight({0, 4, 0}, 40.0f));
                 alphas.push_back(0.0);
-                for (const glm::vec3& pixel :
-                     renderScene(device(), scene, of).rendering.find("coverage")->mean.pixels) {
+                const Rendering image = renderScene(device(), scene, of).rendering;
+                for (const glm::vec3& pixel : image.find("coverage")->mean.pixels) {
                     EXPECT_GE(pixel.x, 0.0f);
                     EXPECT_LE(pixel.x, 1.0f);
                     alphas.back() += pixel.x / (kSide * kSide);

@@ -113,12 +113,12 @@ INSTANTIATE_TEST_SUITE_P(Thirds, LiveSettingsFault, testing::Range<long>(0, 3));
 
 TEST_F(LiveFault, AnyCallOfAReloadOfShadersMayFail) {
     const TemporaryFolder folder;
-    std::filesystem::create_directories(folder / "kernels");
-    std::string accumulate = readFile(LAVALIGHT_SOURCE_DIR "/shaders/kernels/accumulate.comp");
-    const std::string radiance = "paths[slot].radiance";
-    ASSERT_NE(accumulate.find(radiance), std::string::npos);
-    accumulate.insert(accumulate.find(radiance), "0.5 * ");
-    std::ofstream(folder / "kernels/accumulate.comp") << accumulate;
+    std::filesystem::create_directories(folder / "scene");
+    std::string sink = readFile(LAVALIGHT_SOURCE_DIR "/shaders/scene/film_sink.glsl");
+    const std::string radiance = "paths[slot].radiance;\n}"; // what is added to the colour
+    ASSERT_NE(sink.find(radiance), std::string::npos);
+    sink.insert(sink.find(radiance), "0.5 * ");
+    std::ofstream(folder / "scene/film_sink.glsl") << sink;
     const LiveRequest shown = smallRequest(Schedule::fused);
     LiveRequest darker = shown;
     darker.shaders = std::make_shared<ShaderOverlay>(folder.path());
