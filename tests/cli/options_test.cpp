@@ -138,8 +138,8 @@ TEST_F(Options, OfRenderAreOnRecordUnlessTheyAreListedHereWithTheReason) {
     std::set<std::string> recorded =
         recordedWith({"--spp", "1", "--look-from", "0,0,1", "--look-at", "0,0,0", "--up", "0,1,0", "--fov",
                       "40", "--aperture", "0.1", "--focus", "1"});
-    recorded.merge(
-        recordedWith({"--spp", "1", "--view", "top", "--background", "transparent", "--aov", "depth"}));
+    recorded.merge(recordedWith({"--spp", "1", "--view", "top", "--background", "transparent", "--ground",
+                                 "shadow", "--crop", "1,1,2x2", "--aov", "depth"}));
     recorded.merge(recordedWith({"--spp", "1", "--env", "sky"}));
     std::filesystem::copy_file(folder_ / "image.exr", folder_ / "sky.exr");
     recorded.merge(
