@@ -117,7 +117,7 @@ TEST_F(LiveFault, AnyCallOfAReloadOfShadersMayFail) {
     std::string sink = readFile(LAVALIGHT_SOURCE_DIR "/shaders/scene/film_sink.glsl");
     const std::string radiance = "paths[slot].radiance;\n}"; // what is added to the colour
     ASSERT_NE(sink.find(radiance), std::string::npos);
-    sink.insert(sink.find(radiance), "0.5 * ");
+    sink.insert(sink.rfind(radiance), "0.5 * ");
     std::ofstream(folder / "scene/film_sink.glsl") << sink;
     const LiveRequest shown = smallRequest(Schedule::fused);
     LiveRequest darker = shown;
