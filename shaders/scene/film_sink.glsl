@@ -70,7 +70,8 @@ vec3 valueIn(uint plane, uint slot) {
     return paths[slot].radiance;
 }
 
-// The same with the weight that the pixel filter gives it. Only filters with negative lobes have weights other than 1.
+// A sample's value of a plane, with the weight that the pixel filter gives it. Only filters with negative lobes have weights
+// other than 1.
 vec3 weightedValue(uint plane, uint slot) {
     const vec3 value = valueIn(plane, slot);
     if ((kPlanesAsked & kNegativeWeights) == 0u || signOf(plane) != kWeighted)

@@ -7,8 +7,8 @@
 #include "scene/frame.glsl"
 #include "scene/light.glsl"
 
-// As far as the ground catches shadows, in times the distance from the start of a ray through the scene: less than half a pixel
-// below the horizon at 4,000 pixels a radian. Farther away, squares of distances would leave single precision.
+// The farthest that the ground catches shadows, in times the distance from the start of a ray through the scene: less than half
+// a pixel below the horizon at 4,000 pixels a radian. Farther away, squares of distances would leave single precision.
 const float kFarthestCatch = 1e4;
 
 float distanceToGround(Ray ray) {

@@ -60,8 +60,8 @@ SHARED_CONST uint kIndirectPlane = 10u; // of the colour, the rest: its sums are
 SHARED_CONST uint kMotionPlane = 11u;  // pixels to where the surface is in the next frame, right and down
 SHARED_CONST uint kGuideAlbedoPlane = 12u; // for denoisers: of the first surface that is no smooth mirror or glass
 SHARED_CONST uint kGuideNormalPlane = 13u;
-// Of the ground that catches shadows (scene/shadow_catcher.glsl): the share of paths that it catches; luminance of the direct
-// light there; and the part of that which nothing is in the way of. shared/shadow.h makes alpha of them.
+// Shadows on the ground (scene/shadow_catcher.glsl): the share of paths that it catches; luminance of the direct light there;
+// and the part of that which nothing is in the way of. shared/shadow.h makes alpha of them.
 SHARED_CONST uint kShadowPlane = 14u;
 SHARED_CONST uint kBehindPlane = 15u; // background that those paths see, which the shadow darkens
 
@@ -97,11 +97,7 @@ SHARED_CONST uint kCryptomatte = 0x10000000u; // both, as files that compositing
 // Where the sink puts the surface of each sample for the host: that of a sample that is in no plane.
 SHARED_CONST uint kDroppedSample = 0xfffffffeu;
 
-#define FILM_PLANE_SHAPE(number, name, channels, components, sign, hasSquares, isPerHit) \
-    {components, sign, hasSquares, isPerHit},
 #define FILM_PLANE_COUNT(number, name, channels, components, sign, hasSquares, isPerHit) + 1u
-// The rows, with their signs in the place of isSigned.
-SHARED_CONST FilmPlane kFilmPlanes[] = {FILM_PLANES(FILM_PLANE_SHAPE)};
 SHARED_CONST uint kFilmPlaneCount = 0u FILM_PLANES(FILM_PLANE_COUNT);
 
 // The fields of a row, and of a plane as a film has it: expressions, which are constants where `plane` is one. Compilers do not

@@ -36,8 +36,8 @@ struct Path {
 
 // Path::etaScale of a path that is over: its camera ray met nothing.
 SHARED_CONST float kUncovered = 0.0f;
-// The same where the ground catches its shadow: throughput.x is the luminance of a light sample there, and throughput.y of
-// what arrives of it.
+// Path::etaScale of a path that is over: the ground caught it. throughput.x is the luminance of a light sample there, and
+// throughput.y of what arrives of it.
 SHARED_CONST float kCaught = -1.0f;
 
 // A shadow ray with what it will add to its slot if nothing lies between t = 0 and 1 (the direction spans the whole

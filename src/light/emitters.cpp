@@ -106,7 +106,7 @@ struct Emission {
     double power = 0.0;
 };
 
-// Of each triangle, on all processors: a textured one takes the mean of its texels.
+// What each triangle of the mesh emits, found on all processors: a textured one takes the mean of its texels.
 std::vector<Emission> emissionsOf(const Mesh& mesh, const Exitance& exitance) {
     constexpr size_t kAtATime = 256;
     const size_t count = mesh.triangles.size();

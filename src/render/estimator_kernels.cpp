@@ -30,13 +30,25 @@ std::string variantName(std::string_view kernel, const MaterialClass& materials)
     return fmt::format("{} of {} materials", kernel, materials.name);
 }
 
+namespace {
+
+// The file in a kernel's place where films have layers.
+std::string_view ofLayers(std::span<const Phase> phases, std::string_view kernel) {
+    for (const Phase& phase : phases)
+        if (phase.transport->sink.kernel == kernel)
+            return phase.transport->sinkOfLayers;
+    return {};
+}
+
+} // namespace
+
 std::vector<KernelVariant> kernelVariants(std::span<const Phase> phases, Schedule schedule,
                                           const MaterialClasses& classes) {
     std::vector<KernelVariant> variants;
     for (const std::string_view kernel : kernelNames(phases, schedule)) {
         const auto scatters = [&](const Phase& phase) { return phase.transport->hosted.scatter == kernel; };
         if (schedule != Schedule::hosted || std::none_of(phases.begin(), phases.end(), scatters))
-            variants.push_back({std::string(kernel), kernel});
+            variants.push_back({std::string(kernel), kernel, 0, ofLayers(phases, kernel)});
         else
             for (const MaterialClass& materials : classes.list)
                 variants.push_back({variantName(kernel, materials), kernel, materials.without});
@@ -57,12 +69,10 @@ EstimatorKernels::EstimatorKernels(gpu::Device& device, std::vector<KernelVarian
     seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-// The sink of films that have layers is much to compile.
 std::string_view EstimatorKernels::fileOf(const KernelVariant& variant) const {
     constexpr uint32_t kWithoutLayers = 1u << kColorPlane | 1u << kCoveragePlane | kNegativeWeights;
     const bool hasLayers = (planes_ & ~kWithoutLayers) != 0;
-    return variant.kernel == "accumulate" && hasLayers ? std::string_view("accumulate_layers")
-                                                       : variant.kernel;
+    return hasLayers && !variant.ofLayers.empty() ? variant.ofLayers : variant.kernel;
 }
 
 std::vector<gpu::SpecialisationConstant> EstimatorKernels::constantsOf(const KernelVariant& variant) const {

@@ -25,9 +25,10 @@ namespace lavalight {
 
 // A kernel, or what a class of materials leaves of it.
 struct KernelVariant {
-    std::string name;          // unlike those of other variants
-    std::string_view kernel;   // its file in shaders/kernels, without .comp; lasts as long as the program
-    SceneFeatures without = 0; // features of the scene that it does not need
+    std::string name;            // unlike those of other variants
+    std::string_view kernel;     // its file in shaders/kernels, without .comp; lasts as long as the program
+    SceneFeatures without = 0;   // features of the scene that it does not need
+    std::string_view ofLayers{}; // the file in its place where films have layers; empty: the same
     bool operator==(const KernelVariant&) const = default;
 };
 

@@ -47,11 +47,6 @@ Film::Film(gpu::Device& device, uint32_t width, uint32_t height, uint32_t bandRo
     clear();
 }
 
-void Film::countIds(size_t pixel, std::span<const uint32_t> idsOfLayers) {
-    for (size_t i = 0; i < ids_.size(); ++i)
-        ids_[i].counts.add(pixel, idsOfLayers[i]);
-}
-
 void Film::clear() {
     ids_ = emptyIds(layout_, size_t{width_} * height_);
     gpu::Commands commands(*device_);

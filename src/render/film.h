@@ -32,8 +32,8 @@ class Film {
     [[nodiscard]] std::span<const FilmBand> bands() const { return bands_; }
     [[nodiscard]] const gpu::Buffer& tallies() const { return tallies_; }
 
-    // Counts what samples of pixel `pixel` met: ids for each of layout().idLayers().
-    void countIds(size_t pixel, std::span<const uint32_t> idsOfLayers);
+    // Counts an id that a sample of a pixel has, for one of layout().idLayers().
+    void countId(size_t layer, size_t pixel, uint32_t id) { ids_[layer].counts.add(pixel, id); }
     [[nodiscard]] const std::vector<IdLayer>& ids() const { return ids_; }
 
     // Zero samples everywhere.

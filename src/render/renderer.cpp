@@ -344,17 +344,13 @@ void Renderer::countIds(const WaveRange& range) {
     waves_->finish();
     std::vector<uint32_t> surfaces(size_t{range.pixelCount} * range.sampleCount);
     waves_->slots("Surfaces").download(std::as_writable_bytes(std::span(surfaces)));
-    for (size_t slot = 0; slot < surfaces.size(); ++slot) {
-        if (surfaces[slot] == kDroppedSample)
-            continue;
-        const bool isMet = isSurface({surfaces[slot]});
-        std::vector<uint32_t> ids;
-        for (const IdLayer& layer : film_.ids()) {
-            const bool isObjects = layer.name == layerNameOf(kObjectIds);
-            const std::vector<uint32_t>& all = isObjects ? surfaceIds_.objects : surfaceIds_.materials;
-            ids.push_back(isMet ? all[surfaces[slot]] : kNoId);
-        }
-        film_.countIds(range.firstPixel + slot / range.sampleCount, ids);
+    for (size_t layer = 0; layer < film_.ids().size(); ++layer) {
+        const bool isObjects = film_.ids()[layer].name == layerNameOf(kObjectIds);
+        const std::vector<uint32_t>& ids = isObjects ? surfaceIds_.objects : surfaceIds_.materials;
+        for (size_t slot = 0; slot < surfaces.size(); ++slot)
+            if (surfaces[slot] != kDroppedSample)
+                film_.countId(layer, range.firstPixel + slot / range.sampleCount,
+                              isSurface({surfaces[slot]}) ? ids[surfaces[slot]] : kNoId);
     }
 }
 

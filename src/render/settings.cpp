@@ -60,7 +60,7 @@ uint32_t filmPlanes(const RenderSettings& settings) {
                       (catchesShadows ? 1u << kShadowPlane : 0u) |
                       (catchesShadows && !hasCoverage ? 1u << kBehindPlane : 0u);
     for (uint32_t row = 0; row < kFilmPlaneCount; ++row)
-        if ((settings.layers >> row & 1u) != 0 && kFilmPlanes[row].isPerHit != 0)
+        if ((settings.layers >> row & 1u) != 0 && shapeOf(row, 0).isPerHit != 0)
             planes |= 1u << kHitsPlane;
     if ((settings.layers >> kIndirectPlane & 1u) != 0)
         planes |= 1u << kDirectPlane;

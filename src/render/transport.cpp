@@ -37,7 +37,8 @@ constinit const Transport kPathTransport{
     .fusedState = kPathFusedState,
     .hosted = {.camera = "hosted/camera", .scatter = "hosted/scatter", .escape = "hosted/escape"},
     .hostedState = kPathHostedState,
-    .sink = {"accumulate", Over::pixels}};
+    .sink = {"accumulate", Over::pixels},
+    .sinkOfLayers = "accumulate_layers"};
 
 std::span<const SlotBuffer> stateOf(const Transport& transport, Schedule schedule) {
     assert(schedule != Schedule::automatic);

@@ -53,8 +53,10 @@ struct Transport {
     // Schedule::hosted.
     HostedKernels hosted;
     std::span<const SlotBuffer> hostedState;
-    // The sink adds the results of a finished wave to the film.
+    // The sink adds the results of a finished wave to the film. Where films have layers, another kernel takes
+    // its place, which is much to compile.
     KernelStep sink;
+    std::string_view sinkOfLayers;
 };
 
 // The schedule must not be automatic.

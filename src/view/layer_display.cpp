@@ -60,11 +60,11 @@ struct Range {
 std::vector<uint32_t> displayOf(const Rendering& layers, uint32_t row, float scale) {
     const Layer* layer = layers.find(planeName(row));
     assert(layer != nullptr);
-    const FilmPlane& shape = kFilmPlanes[row];
+    const FilmPlane shape = shapeOf(row, 0);
     const std::vector<glm::vec3>& values = layer->mean.pixels;
     const Layer* hits = shape.isPerHit != 0 ? layers.find(planeName(kHitsPlane)) : nullptr;
     const auto has = [&](size_t i) { return hits == nullptr || hits->mean.pixels[i].x > 0.0f; };
-    const bool isColor = shape.components == 3 && shape.isSigned != 1;
+    const bool isColor = shape.components == 3 && shape.isSigned == 0;
     Range range;
     if (!isColor && row != kNormalPlane)
         for (size_t i = 0; i < values.size(); ++i)

@@ -154,15 +154,19 @@ TEST_F(FilmTest, NegativeRadianceIsCountedAndTakenForZero) {
 class SignedLayerTest : public FilmTest {
   protected:
     static constexpr uint32_t kLean = kFilmPlaneCount; // the row
+    static constexpr float kBroken = 7.0f;             // a red that makes the layer NaN, and the colour not
     // x - y and -z of the radiance.
     [[nodiscard]] static gpu::KernelCode leaningKernel(bool hasSquares) {
         const std::string row = R"("behind.R,behind.G,behind.B", 3u, kWeighted, 0u, 0u))";
         const std::string added = fmt::format(R"( PLANE({}u, "lean", "lean.X,lean.Y", 2u, 1u, {}u, 0u))",
                                               kLean, hasSquares ? 1 : 0);
         const std::string fill = "    return paths[slot].radiance;";
-        const std::string line = fmt::format("    if (plane == {}u) return vec3(paths[slot].radiance.x - "
-                                             "paths[slot].radiance.y, -paths[slot].radiance.z, 0.0);\n",
-                                             kLean);
+        const std::string line =
+            fmt::format("    if (plane == {0}u && paths[slot].radiance.x == {1:.1f}) return "
+                        "vec3(uintBitsToFloat(0x7fc00000u));\n"
+                        "    if (plane == {0}u) return vec3(paths[slot].radiance.x - paths[slot].radiance.y, "
+                        "-paths[slot].radiance.z, 0.0);\n",
+                        kLean, kBroken);
         return patchedKernel("accumulate_layers", {{"shared/film.h", row, row + added},
                                                    {"scene/film_sink.glsl", fill, line + fill}});
     }
@@ -190,6 +194,21 @@ class SignedLayerTest : public FilmTest {
         return film.read();
     }
 };
+
+TEST_F(SignedLayerTest, SamplesThatAreNaNInALayerAreInNoPlane) {
+    std::vector<std::vector<Path>> waves{wave({1.0f, 2.0f, 3.0f}), wave({1.0f, 2.0f, 3.0f})};
+    waves[1][4].radiance.x = kBroken;
+    const Film film(device(), kWidth, kHeight, 0, layout(true));
+    accumulate(film, waves, kernel(true), 1);
+    EXPECT_EQ(film.readTallies().droppedSamples, 1u);
+    const Rendering rendering = film.resolve();
+    EXPECT_EQ(rendering.sampleCounts[3], 2u);
+    EXPECT_EQ(rendering.sampleCounts[4], 1u);
+    for (const size_t pixel : {3, 4}) {
+        EXPECT_EQ(rendering.radiance().pixels[pixel], glm::vec3(1.0f, 2.0f, 3.0f));
+        EXPECT_EQ(rendering.find("lean")->mean.pixels[pixel], glm::vec3(-1.0f, -3.0f, 0.0f));
+    }
+}
 
 TEST_F(SignedLayerTest, HoldsMeansAndVariancesOfValuesOnBothSidesOfZero) {
     for (const bool hasSquares : {true, false}) {

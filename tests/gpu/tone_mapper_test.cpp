@@ -93,7 +93,7 @@ TEST_F(ToneMapperTest, ExposuresWithoutMeasureEndInBlackAndWhite) {
     EXPECT_NE(std::count(bright.begin(), bright.end(), kWhite), 0);
 }
 
-// Of a quarter covered, associated colour is a quarter of what shines.
+// The associated colour of a pixel that is covered by a quarter is a quarter of what shines.
 TEST_F(ToneMapperTest, AlphaIsStraightAndABackdropArrivesAsGivenFromFilmAndImageAlike) {
     RenderSettings settings = imageSettings(64, 16, 16);
     settings.background.kind = Background::transparent;

@@ -32,7 +32,7 @@ class Denoise : public DeviceTest {
             GTEST_SKIP() << error.what();
         }
     }
-    // Of 16 samples, with the layer of light that is seen directly.
+    // A render of 16 samples, with the layer of light that is seen directly.
     [[nodiscard]] Rendering denoised(const Scene& scene, const Image& reference, DenoiseQuality quality) {
         RenderSettings settings = imageSettings(reference.width, reference.height, 16);
         settings.layers = kDenoisingLayers;

@@ -2,7 +2,7 @@
 #ifndef LAVALIGHT_LUMINANCE_GLSL
 #define LAVALIGHT_LUMINANCE_GLSL
 
-// Of linear Rec. 709: ITU-R BT.709-6, section 3.2.
+// Luminance of linear Rec. 709. Source: ITU-R BT.709-6, section 3.2.
 float luminance(vec3 color) {
     return dot(color, vec3(0.2126, 0.7152, 0.0722));
 }

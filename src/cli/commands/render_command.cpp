@@ -34,9 +34,9 @@ void printSummary(const RenderReport& report) {
 } // namespace
 
 RenderCommand::RenderCommand(CLI::App& app)
-    : Command(app, "render", "Render a scene to an image"), options_(parser()), sceneOptions_(parser()),
-      frames_(parser()), shaders_(parser()), tone_(parser()), background_(parser()), ground_(parser()),
-      layers_(parser()),
+    : Command(app, "render", "Render a scene to an image"), options_(parser()), crop_(parser()),
+      sceneOptions_(parser()), frames_(parser()), shaders_(parser()), tone_(parser()), background_(parser()),
+      ground_(parser()), layers_(parser()),
       denoise_(parser(), {"Denoise the PNG, by Intel Open Image Denoise; the EXR keeps its colour and gets a "
                           "layer denoised. Without a word: high",
                           DenoiseQuality::high}),
@@ -55,12 +55,6 @@ RenderCommand::RenderCommand(CLI::App& app)
         ->type_name("OUT.exr|OUT.png")
         ->default_str("")
         ->allow_extra_args(false);
-    parser()
-        .add_option(
-            "--crop", crop_,
-            "Renders these pixels of the image alone, counted from its top left corner, with the bits that "
-            "the whole has there; the EXR can be joined with other parts (see lavalight merge)")
-        ->type_name("X,Y,WxH");
     parser().add_option("--png", png_, "Another way to write -o OUT.png")->type_name("OUT.png");
     parser()
         .add_option("--report", outputs_.report, "JSON report: times, rays, memory, ledger")
@@ -68,24 +62,12 @@ RenderCommand::RenderCommand(CLI::App& app)
     parser().add_flag("--quiet", quiet_, "No messages but errors, no summary");
 }
 
-std::optional<PixelWindow> RenderCommand::crop() const {
-    if (crop_.empty())
-        return std::nullopt;
-    const std::optional<PixelWindow> window = parsePixelWindow(crop_);
-    if (!window)
-        throw UsageError(
-            fmt::format("--crop: \"{}\" is not X,Y,WxH: the corner and the size of a part of the "
-                        "image, in pixels",
-                        crop_));
-    return window;
-}
-
 RenderPlan RenderCommand::plan() const {
     RenderPlan plan = options_.plan(scene_);
     plan.settings.background = background_.settings();
     plan.settings.ground = ground_.settings();
     plan.settings.layers = layers_.layers();
-    plan.settings.image.crop = this->crop();
+    plan.settings.image.crop = crop_.window();
     if (frames_.isTurntable() && plan.camera.view == NamedView::none)
         plan.camera.view = NamedView::threeQuarter;
     plan.style = {options_.keepsFilm() || plan.settings.image.crop, tone_.settings(), tone_.isAutomatic()};

@@ -9,6 +9,7 @@
 #include "cli/command.h"
 #include "cli/options/background_options.h"
 #include "cli/options/checkpoint_options.h"
+#include "cli/options/crop_options.h"
 #include "cli/options/denoise_options.h"
 #include "cli/options/frame_options.h"
 #include "cli/options/ground_options.h"
@@ -29,7 +30,6 @@ class RenderCommand : public Command {
 
   private:
     [[nodiscard]] RenderPlan plan() const;
-    [[nodiscard]] std::optional<PixelWindow> crop() const;
     // Sorts the pictures that are asked for by their formats.
     void takeOutputs();
     void checkOptions() const;
@@ -50,6 +50,7 @@ class RenderCommand : public Command {
     void finishImage(RenderSession& session, RenderJob& job, const Outputs& outputs) const;
 
     RenderOptions options_;
+    CropOptions crop_;
     SceneOptions sceneOptions_;
     FrameOptions frames_;
     ShaderOptions shaders_;
@@ -62,7 +63,6 @@ class RenderCommand : public Command {
     std::string scene_ = "cornell-box";
     std::vector<std::string> pictures_; // -o
     std::string png_;
-    std::string crop_;
     Outputs outputs_;
     bool quiet_ = false;
 };

@@ -7,6 +7,7 @@
 #include "image/srgb.h"
 
 namespace lavalight {
+
 BackgroundOptions::BackgroundOptions(CLI::App& parser) {
     parser
         .add_option(
@@ -40,10 +41,8 @@ std::optional<glm::vec3> BackgroundOptions::color() const {
 }
 
 std::optional<glm::vec3> BackgroundOptions::backdrop() const {
-    std::optional<glm::vec3> linear = color();
-    for (glm::length_t c = 0; linear && c < 3; ++c)
-        (*linear)[c] = static_cast<float>(decodeSrgb((*linear)[c]));
-    return linear;
+    const std::optional<uint32_t> code = parseHexColor(background_);
+    return code ? std::optional(decodeSrgb8(*code)) : std::nullopt;
 }
 
 } // namespace lavalight

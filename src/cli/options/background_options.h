@@ -22,7 +22,7 @@ class BackgroundOptions {
     [[nodiscard]] BackgroundSettings settings() const;
     // The colour that a PNG has behind what is covered, as linear display values; none: what settings() says.
     [[nodiscard]] std::optional<glm::vec3> backdrop() const;
-    // The same colour as sRGB signals in [0, 1].
+    // The PNG's background as sRGB signals in [0, 1].
     [[nodiscard]] std::optional<glm::vec3> color() const;
 
   private:

@@ -11,6 +11,7 @@
 #include "kernels/shader_overlay.h"
 #include "render/renderer.h"
 #include "render/tone_mapper.h"
+#include "session/render_session.h"
 
 namespace lavalight {
 

@@ -97,6 +97,21 @@ TEST(Frame, SettingsReachTheKernels) {
     EXPECT_EQ(frame.waveSize, 1400u);
 }
 
+// A triangle before the near plane lies half a pixel outside of the image: wide filters reach it.
+TEST(Frame, WhatAPixelFilterReachesBeyondTheImageIsClippedToo) {
+    Scene scene;
+    scene.materials.emplace_back();
+    scene.meshes.push_back(
+        {"near", 0, {{0.55f, 0, -0.5f}, {0.6f, 0, -0.5f}, {0.6f, 0.05f, -0.5f}}, {}, {{0, 1, 2}}});
+    Camera camera;
+    camera.verticalFov = std::acos(0.0f); // at a distance of 1/2 m the image is 1 m wide
+    camera.znear = 1.0f;
+    RenderSettings settings = sized(10, 10);
+    EXPECT_EQ(makeFrame(scene, camera, settings).clipNear, 0.0f);
+    settings.estimator.pixelFilter = PixelFilter::mitchell;
+    EXPECT_EQ(makeFrame(scene, camera, settings).clipNear, 1.0f);
+}
+
 TEST(Frame, IsToldItsLights) {
     Scene scene;
     scene.environment = {1.0f, 2.0f, 3.0f};
