@@ -54,7 +54,7 @@ class CropInSchedule : public Crop, public testing::WithParamInterface<const cha
 TEST_P(CropInSchedule, PartsMergeIntoTheBitsOfTheWhole) {
     const auto options = [&](std::vector<std::string> more) {
         more.insert(more.end(), {"--schedule", GetParam(), "--aperture", "0.02", "--focus", "3", "--aov",
-                                 "normal,depth"});
+                                 "normal,depth,object-id"});
         return more;
     };
     render("whole.exr", options({"--samples", "0:3"}));

@@ -8,6 +8,7 @@
 #include "film/raw_film.h"
 #include "render/renderer.h"
 #include "session/next_frame.h"
+#include "support/patched_kernel.h"
 #include "support/render_scene.h"
 #include "support/scene_builder.h"
 #include "support/test_device.h"
@@ -26,8 +27,9 @@ class LightLayers : public DeviceTest {
         settings.layers = layers;
         return settings;
     }
-    [[nodiscard]] RawFilm film(const Scene& scene, const RenderSettings& settings) {
-        Renderer renderer(device(), scene, scene.cameras.front(), settings);
+    [[nodiscard]] RawFilm film(const Scene& scene, const RenderSettings& settings,
+                               const KernelSource& kernels = embeddedKernel) {
+        Renderer renderer(device(), scene, scene.cameras.front(), settings, kernels);
         renderer.render([](double) { return true; });
         return renderer.film().read();
     }
@@ -209,6 +211,18 @@ TEST_F(LightLayers, IdsAreCountedForEachPixel) {
                 EXPECT_NEAR(edge[0].count, 8.0, 2.0);
             }
         }
+}
+
+// A sample that is in no plane is in no count of ids: shares of ids are of the samples that there are.
+TEST_F(LightLayers, IdsOfDroppedSamplesAreNotCounted) {
+    const auto breakPaths = [](std::string_view kernel) {
+        return patchedKernel(kernel, {"scene/path_vertex.glsl", "path.throughput *= next.weight;",
+                                      "path.throughput *= uintBitsToFloat(0x7fc00000u);"});
+    };
+    const RawFilm film =
+        this->film(wallWithCoordinates(), settings(schedulesOf(device()).front(), kObjectIds, 4), breakPaths);
+    EXPECT_EQ(film.tallies[kTallyDropped], 4u * kSide * kSide);
+    EXPECT_EQ(film.ids.at(0).counts.deepest(), 0u);
 }
 
 } // namespace
