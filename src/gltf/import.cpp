@@ -13,7 +13,9 @@
 #include "base/named.h"
 #include "gltf/decode/accessor.h"
 #include "gltf/file/document.h"
+#include "gltf/read/animation_pointer.h"
 #include "gltf/read/camera.h"
+#include "gltf/read/image_light.h"
 #include "gltf/read/light.h"
 #include "gltf/read/material.h"
 #include "gltf/read/mesh.h"
@@ -130,9 +132,10 @@ void readPlaces(const GltfDocument& document, const ImportOptions& options, Node
     }
 }
 
-Scene buildScene(const GltfDocument& document, const ImportOptions& options) {
+Scene buildScene(GltfDocument& document, const ImportOptions& options) {
     checkAccessors(document);
     GltfNotes notes;
+    applyAnimationPointers(document, options, notes);
     Scene scene;
     scene.source = document.source;
     scene.extensionsUsed = document.extensionsUsed;
@@ -161,7 +164,8 @@ Scene buildScene(const GltfDocument& document, const ImportOptions& options) {
     if (!scene.hasOwnCamera)
         scene.cameras.push_back(framingCamera(scene.bounds));
     scene.punctualLights = readPunctualLights(document, nodes.shown, notes);
-    scene.hasOwnLight = hasEmission(scene) || hasPunctualLight(scene);
+    scene.environmentMap = readImageLight(document, notes);
+    scene.hasOwnLight = scene.environmentMap || hasEmission(scene) || hasPunctualLight(scene);
     if (!scene.hasOwnLight)
         scene.environment = glm::vec3(1.0f);
     scene.warnings = notes.lines();

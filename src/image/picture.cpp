@@ -1,7 +1,8 @@
-// PNG by stb_image, WebP by libwebp, JPEG by libjpeg-turbo.
+// PNG by stb_image, WebP by libwebp; JPEG and KTX2 have files of their own.
 #include "image/picture.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -12,6 +13,8 @@
 
 #include "base/error.h"
 #include "image/jpeg.h"
+#include "image/ktx2.h"
+#include "image/ktx2_container.h"
 #include "image/picture_limits.h"
 
 namespace lavalight {
@@ -114,22 +117,32 @@ Picture decodePng(std::string_view bytes) {
     return {{}, size.width, size.height, size.is16Bit, std::vector<uint8_t>(first, first + size.bytes())};
 }
 
+struct Format {
+    bool (*isOf)(std::string_view);
+    PictureSize (*measure)(std::string_view);
+    Picture (*decode)(std::string_view);
+};
+constexpr std::array<Format, 4> kFormats = {{{isPng, measurePng, decodePng},
+                                             {isJpeg, measureJpeg, decodeJpeg},
+                                             {isWebp, measureWebp, decodeWebp},
+                                             {isKtx2, measureKtx2, decodeKtx2}}};
+
 // stb reads more formats, which glTF does not have and nobody has tested.
-void requireKnown(std::string_view bytes) {
-    if (!isWebp(bytes) && !isPng(bytes) && !isJpeg(bytes))
-        throw Error("it is not a PNG, JPEG or WebP file");
+const Format& formatOf(std::string_view bytes) {
+    for (const Format& format : kFormats)
+        if (format.isOf(bytes))
+            return format;
+    throw Error("it is not a PNG, JPEG, WebP or KTX2 file");
 }
 
 } // namespace
 
 PictureSize measurePicture(std::string_view bytes) {
-    requireKnown(bytes);
-    return isWebp(bytes) ? measureWebp(bytes) : isJpeg(bytes) ? measureJpeg(bytes) : measurePng(bytes);
+    return formatOf(bytes).measure(bytes);
 }
 
 Picture decodePicture(std::string_view bytes) {
-    requireKnown(bytes);
-    return isWebp(bytes) ? decodeWebp(bytes) : isJpeg(bytes) ? decodeJpeg(bytes) : decodePng(bytes);
+    return formatOf(bytes).decode(bytes);
 }
 
 } // namespace lavalight

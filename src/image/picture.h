@@ -1,4 +1,4 @@
-// Pictures that textures are made of: decoding of PNG, JPEG and WebP.
+// Pictures that textures are made of: decoding of PNG, JPEG, WebP and KTX2.
 #pragma once
 
 #include <cstdint>
@@ -30,9 +30,9 @@ struct PictureSize {
 // other formats, for pictures of too many texels, and of more than their bytes can hold.
 [[nodiscard]] PictureSize measurePicture(std::string_view bytes);
 
-// Decodes the bytes of a PNG, JPEG or WebP file, told apart by their first bytes. Grey becomes RGB, a missing
-// alpha 1. Throws Error as measurePicture does, before anything is allocated, and for damaged bytes, unless a
-// JPEG can be shown all the same.
+// Decodes the bytes of a PNG, JPEG, WebP or KTX2 file, told apart by their first bytes. Grey becomes RGB, a
+// missing alpha 1. Throws Error as measurePicture does, before anything is allocated, and for damaged bytes,
+// unless a JPEG can be shown all the same.
 [[nodiscard]] Picture decodePicture(std::string_view bytes);
 
 } // namespace lavalight

@@ -34,7 +34,9 @@ void bringStudio(Scene& scene) {
     scene.environment = glm::vec3(0.0f); // it is not the light any more
 }
 
+// In place of the environment that the file may have.
 void bringLight(const LightingSettings& lighting, Scene& scene) {
+    scene.environmentMap.reset();
     if (!lighting.mapFile.empty())
         readEnvironmentMap(lighting.mapFile, scene);
     else if (lighting.procedural == ProceduralEnvironment::studio)

@@ -1,5 +1,5 @@
-// Fuzzes the decoding of pictures: PNG, JPEG and WebP. What is decoded twice is the same twice: pixels that
-// no decoder set would be what was in memory before.
+// Fuzzes the decoding of pictures: PNG, JPEG, WebP and KTX2. What is decoded twice is the same twice: pixels
+// that no decoder set would be what was in memory before.
 #include <cstdint>
 #include <cstdlib>
 #include <string_view>

@@ -28,14 +28,20 @@ constexpr PropertyRule color(std::string_view name) {
 
 } // namespace extension_table
 
-// KHR_xmp and KHR_xmp_json_ld only carry descriptions, which no picture shows.
+// What these hold, no picture shows: KHR_xmp, KHR_xmp_json_ld (descriptions), KHR_interactivity,
+// KHR_node_hoverability, KHR_node_selectability (what a viewer does), EXT_mesh_opacity_micromap (a faster way
+// to the same alpha).
 inline constexpr std::array kExtensions = [] {
     using namespace extension_table;
     return std::to_array<Extension>(
-        {{"EXT_mesh_gpu_instancing"},
+        {{"EXT_lights_image_based"},
+         {"EXT_mesh_gpu_instancing"},
+         {"EXT_mesh_opacity_micromap"},
          {"EXT_meshopt_compression"},
          {"EXT_texture_webp"},
+         {"KHR_animation_pointer"},
          {"KHR_draco_mesh_compression"},
+         {"KHR_interactivity"},
          {"KHR_lights_punctual"},
          {"KHR_materials_anisotropy",
           {number("anisotropyStrength"), number("anisotropyRotation")},
@@ -70,7 +76,10 @@ inline constexpr std::array kExtensions = [] {
           {"thicknessTexture"}},
          {"KHR_mesh_quantization"},
          {"KHR_meshopt_compression"},
+         {"KHR_node_hoverability"},
+         {"KHR_node_selectability"},
          {"KHR_node_visibility"},
+         {"KHR_texture_basisu"},
          {"KHR_texture_transform"},
          {"KHR_xmp"},
          {"KHR_xmp_json_ld"}});
@@ -83,5 +92,9 @@ inline constexpr std::array kExtensions = [] {
             return &extension;
     return nullptr;
 }
+
+// Whether the extension of that exact name is read by this build: an extension may need a library that is
+// optional.
+[[nodiscard]] bool isExtensionRead(std::string_view name);
 
 } // namespace lavalight

@@ -38,7 +38,9 @@ void addTextureRules(std::vector<ObjectRule>& rules) {
     rules.push_back({"textures[]",
                      {index("sampler", "samplers"), optional("source", Kind::count),
                       optional("extensions", Kind::object)}});
-    rules.push_back({"textures[].extensions.EXT_texture_webp", {optional("source", Kind::count)}});
+    for (const char* image :
+         {"textures[].extensions.EXT_texture_webp", "textures[].extensions.KHR_texture_basisu"})
+        rules.push_back({image, {optional("source", Kind::count)}});
     rules.push_back({"samplers[]",
                      {optional("wrapS", Kind::small), optional("wrapT", Kind::small),
                       optional("magFilter", Kind::small), optional("minFilter", Kind::small)}});

@@ -42,6 +42,16 @@ void addLightRules(std::vector<ObjectRule>& rules) {
                      {index("light", "extensions.KHR_lights_punctual.lights", Need::required)}});
 }
 
+// Faces and coefficients are lists of lists, which their reader checks.
+void addImageLightRules(std::vector<ObjectRule>& rules) {
+    const std::string extension = "extensions.EXT_lights_image_based";
+    rules.push_back({extension, {{"lights", Kind::object, Need::optional, kAnyLength}}});
+    rules.push_back({extension + ".lights[]",
+                     {optional("name", Kind::text), number("intensity"), numbers("rotation", 4)}});
+    rules.push_back({"scenes[].extensions.EXT_lights_image_based",
+                     {index("light", "extensions.EXT_lights_image_based.lights", Need::required)}});
+}
+
 // Exporters write accessors and buffers of nothing, and meshes without primitives: empty_accessors.h
 // says what becomes of them.
 void addDataRules(std::vector<ObjectRule>& rules) {
@@ -107,6 +117,8 @@ void addMotionRules(std::vector<ObjectRule>& rules) {
         {"animations[].channels[]", {required("sampler", Kind::small), required("target", Kind::object)}});
     rules.push_back(
         {"animations[].channels[].target", {index("node", "nodes"), required("path", Kind::text)}});
+    rules.push_back({"animations[].channels[].target.extensions.KHR_animation_pointer",
+                     {required("pointer", Kind::text)}});
     rules.push_back({"animations[].samplers[]",
                      {index("input", "accessors", Need::required),
                       index("output", "accessors", Need::required), optional("interpolation", Kind::text)}});
@@ -118,6 +130,7 @@ std::vector<ObjectRule> gltfSchemaRules() {
     std::vector<ObjectRule> rules;
     addFileRules(rules);
     addLightRules(rules);
+    addImageLightRules(rules);
     addDataRules(rules);
     addGeometryExtensionRules(rules);
     addMaterialRules(rules);

@@ -22,13 +22,22 @@ using Json = nlohmann::json;
 // bits, a triangle (12 bytes at most) one byte.
 constexpr uint64_t kMostExpansion = 64;
 
+// Libraries before 1.0 decode neither version 1 of vertices nor the filter of colours.
+#if MESHOPTIMIZER_VERSION >= 1000
+constexpr unsigned char kVertexVersion = 1;
+#else
+constexpr unsigned char kVertexVersion = 0;
+void meshopt_decodeFilterColor(void*, size_t, size_t) {}
+#endif
+constexpr bool kHasColorFilter = kVertexVersion >= 1;
+
 struct Codec {
     std::string_view mode;
     unsigned char header;  // high half of the first byte of a stream
     unsigned char version; // the newest that the library decodes; the low half of that byte
 };
 constexpr std::array<Codec, 3> kCodecs = {
-    {{"ATTRIBUTES", 0xA0, 0}, {"TRIANGLES", 0xE0, 1}, {"INDICES", 0xD0, 1}}};
+    {{"ATTRIBUTES", 0xA0, kVertexVersion}, {"TRIANGLES", 0xE0, 1}, {"INDICES", 0xD0, 1}}};
 
 // One compressed view, its figures as the extension states them.
 struct Stream {
@@ -60,6 +69,8 @@ std::string unsupportedPart(const Stream& stream) {
         if (stream.filter == known)
             return {};
     }
+    if (kHasColorFilter && stream.filter == "COLOR")
+        return {};
     return fmt::format("the filter \"{}\"", stream.filter);
 }
 
@@ -72,7 +83,8 @@ bool isSound(const Stream& stream, uint64_t viewLength) {
         return false;
     if (stream.mode == "TRIANGLES" && stream.count % 3 != 0)
         return false;
-    if (stream.filter == "OCTAHEDRAL" && stream.stride != 4 && stream.stride != 8)
+    if ((stream.filter == "OCTAHEDRAL" || stream.filter == "COLOR") && stream.stride != 4 &&
+        stream.stride != 8)
         return false;
     if (stream.filter == "QUATERNION" && stream.stride != 8)
         return false;
@@ -97,6 +109,8 @@ bool decode(const Stream& stream, std::string& bytes) {
         meshopt_decodeFilterQuat(target, stream.count, stream.stride);
     else if (stream.filter == "EXPONENTIAL")
         meshopt_decodeFilterExp(target, stream.count, stream.stride);
+    else if (stream.filter == "COLOR")
+        meshopt_decodeFilterColor(target, stream.count, stream.stride);
     return true;
 }
 

@@ -73,17 +73,25 @@ void collectExtensions(const Json& json, const std::string& source, std::set<std
     }
 }
 
+std::string whyNotRead(std::string_view name) {
+    if (name.starts_with("KHR_gaussian_splatting"))
+        return "and Lavalight renders triangles, not Gaussian splats; try a mesh of the same object";
+    if (extensionNamed(name) != nullptr)
+        return "which this program was built without; run tools/setup, configure and build again";
+    return "which is not supported";
+}
+
 void sortExtensions(const Json& json, GltfDocument& document) {
     const auto required = namesIn(json, "extensionsRequired");
     for (const std::string& name : required) {
-        if (extensionNamed(name) == nullptr)
-            throw document.error(fmt::format("it requires the extension {}, which is not supported", name));
+        if (!isExtensionRead(name))
+            throw document.error(fmt::format("it requires the extension {}, {}", name, whyNotRead(name)));
     }
     document.extensionsUsed = namesIn(json, "extensionsUsed");
     std::set<std::string> names(document.extensionsUsed.begin(), document.extensionsUsed.end());
     collectExtensions(json, document.source, names);
     std::copy_if(names.begin(), names.end(), std::back_inserter(document.ignoredExtensions),
-                 [](const std::string& name) { return extensionNamed(name) == nullptr; });
+                 [](const std::string& name) { return !isExtensionRead(name); });
 }
 
 // What the table of rules cannot say: which parts a camera or a light of one type needs.

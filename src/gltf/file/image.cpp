@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/os/memory.h"
+#include "gltf/read/image_light.h"
 #include "gltf/read/notes.h"
 #include "gltf/read/texture.h"
 
@@ -49,10 +50,15 @@ GltfImage loadImage(const Json& json, size_t index, const std::vector<GltfBuffer
 std::vector<GltfImage> loadImages(const Json& json, const std::vector<GltfBuffer>& buffers,
                                   const GltfSource& source) {
     std::vector<GltfImage> images(json.contains("images") ? json.at("images").size() : 0);
-    for (const GltfTexture& texture : readTextures(json)) {
-        if (texture.image && images[*texture.image].name.empty())
-            images[*texture.image] = loadImage(json, *texture.image, buffers, source);
-    }
+    const auto load = [&](size_t index) {
+        if (index < images.size() && images[index].name.empty())
+            images[index] = loadImage(json, index, buffers, source);
+    };
+    for (const GltfTexture& texture : readTextures(json))
+        if (texture.image)
+            load(*texture.image);
+    for (const size_t face : facesOfLights(json))
+        load(face);
     return images;
 }
 

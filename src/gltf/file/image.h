@@ -14,7 +14,7 @@ namespace lavalight {
 // An image that cannot be had does not fail the scene: it has a problem instead of bytes.
 struct GltfImage {
     std::string name;  // for messages
-    std::string bytes; // as in the file; none for images that no texture uses
+    std::string bytes; // as in the file; none for images that no texture and no light uses
     std::string problem;
 };
 

@@ -50,7 +50,32 @@ void applyChannel(const Keyframes& keys, const std::string& path, double seconds
     }
 }
 
+std::optional<KeyType> typeOfPath(const std::string& path) {
+    if (path == "translation" || path == "scale")
+        return KeyType{path, 3};
+    if (path == "rotation")
+        return KeyType{.name = path, .components = 4, .isRotation = true};
+    if (path == "weights")
+        return KeyType{.name = path, .isArray = true};
+    return std::nullopt;
+}
+
 } // namespace
+
+JsonView AnimationChannels::samplerOf(const GltfDocument& document, JsonView channel) const {
+    const size_t number = channel.count("sampler", 0);
+    if (number >= samplers.size())
+        throw document.error(
+            fmt::format("{} has {} samplers, but a channel uses number {}", name, samplers.size(), number));
+    return samplers[number];
+}
+
+AnimationChannels findChannels(const GltfDocument& document, const std::string& wanted) {
+    const size_t index = findAnimation(document, wanted);
+    const JsonView animation = document.list("animations")[index];
+    return {describe("animation", index, animation.text("name")), animation["channels"],
+            animation["samplers"]};
+}
 
 std::vector<Animation> listAnimations(const GltfDocument& document) {
     std::vector<Animation> animations;
@@ -62,23 +87,16 @@ std::vector<Animation> listAnimations(const GltfDocument& document) {
 Pose poseAt(const GltfDocument& document, const ImportOptions& options) {
     if (!options.seconds)
         return {};
-    const size_t index = findAnimation(document, options.animation);
-    const JsonView animation = document.list("animations")[index];
-    const JsonView samplers = animation["samplers"];
-    const std::string name = describe("animation", index, animation.text("name"));
+    const AnimationChannels channels = findChannels(document, options.animation);
     Pose pose(document.list("nodes").size());
     KeyTimes times(document);
-    for (const JsonView channel : animation["channels"].elements()) {
-        const std::string& path = channel["target"].text("path");
+    for (const JsonView channel : channels.all.elements()) {
+        const std::optional<KeyType> type = typeOfPath(channel["target"].text("path"));
         const std::optional<size_t> node = channel["target"].index("node");
-        if (!node || (path != "translation" && path != "rotation" && path != "scale" && path != "weights"))
-            continue; // extensions have such channels, and were named as ignored
-        const size_t sampler = channel.count("sampler", 0);
-        if (sampler >= samplers.size())
-            throw document.error(fmt::format("{} has {} samplers, but a channel uses number {}", name,
-                                             samplers.size(), sampler));
-        const Keyframes keys(document, samplers[sampler], path, times);
-        applyChannel(keys, path, *options.seconds, pose.at(*node));
+        if (!node || !type)
+            continue; // extensions have such channels: animation_pointer.h
+        const Keyframes keys(document, channels.samplerOf(document, channel), *type, times);
+        applyChannel(keys, type->name, *options.seconds, pose.at(*node));
     }
     return pose;
 }

@@ -44,8 +44,8 @@ const std::vector<float>& KeyTimes::of(size_t accessor) {
     return times_.emplace(accessor, std::move(times)).first->second;
 }
 
-Keyframes::Keyframes(const GltfDocument& document, JsonView sampler, const std::string& path, KeyTimes& times)
-    : output_(document, sampler.count("output", 0)), path_(path) {
+Keyframes::Keyframes(const GltfDocument& document, JsonView sampler, KeyType type, KeyTimes& times)
+    : output_(document, sampler.count("output", 0)), type_(std::move(type)) {
     const std::string& interpolation = sampler.text("interpolation");
     if (interpolation == "STEP")
         interpolation_ = Interpolation::step;
@@ -59,19 +59,20 @@ Keyframes::Keyframes(const GltfDocument& document, JsonView sampler, const std::
 }
 
 void Keyframes::checkValues(const GltfDocument& document) {
-    const bool isWeights = path_ == "weights";
-    const bool isRight = isWeights             ? output_.isScalar()
-                         : path_ == "rotation" ? output_.isVec4()
-                                               : output_.isVec3();
+    const bool isRight = type_.components == 1   ? output_.isScalar()
+                         : type_.components == 2 ? output_.isVec2()
+                         : type_.components == 3 ? output_.isVec3()
+                                                 : output_.isVec4();
     if (!isRight)
-        throw document.error(
-            fmt::format("{} is used as keys of {} and is of another type", output_.name(), path_));
+        throw document.error(fmt::format("{} is used as keys of {} and is of another type", output_.name(),
+                                         printable(type_.name)));
     const size_t perKey = interpolation_ == Interpolation::cubic ? 3 : 1;
     const size_t values = perKey * times_.size();
-    lanes_ = isWeights ? output_.count() / values : 1;
+    lanes_ = type_.isArray ? output_.count() / values : 1;
     if (lanes_ == 0 || output_.count() != lanes_ * values)
         throw document.error(fmt::format("{} is used as keys of {} and has {} elements for {} times",
-                                         output_.name(), path_, output_.count(), times_.size()));
+                                         output_.name(), printable(type_.name), output_.count(),
+                                         times_.size()));
 }
 
 glm::dvec4 Keyframes::stored(size_t key, size_t lane, Part part) const {
@@ -81,6 +82,8 @@ glm::dvec4 Keyframes::stored(size_t key, size_t lane, Part part) const {
     element = element * lanes_ + lane;
     if (output_.isScalar())
         return {output_.scalarAt(element), 0.0, 0.0, 0.0};
+    if (output_.isVec2())
+        return {glm::dvec2(output_.vec2At(element)), 0.0, 0.0};
     if (output_.isVec3())
         return {glm::dvec3(output_.vec3At(element)), 0.0};
     return glm::dvec4(output_.vec4At(element));
@@ -92,7 +95,7 @@ glm::dvec4 Keyframes::between(size_t key, double seconds, size_t lane) const {
     const glm::dvec4 a = stored(key, lane);
     const glm::dvec4 b = stored(key + 1, lane);
     if (interpolation_ == Interpolation::linear)
-        return path_ == "rotation" ? slerp(a, b, t) : glm::mix(a, b, t);
+        return type_.isRotation ? slerp(a, b, t) : glm::mix(a, b, t);
     // Hermite's polynomials; the tangents are per second.
     const glm::dvec4 out = span * stored(key, lane, Part::outTangent);
     const glm::dvec4 in = span * stored(key + 1, lane, Part::inTangent);
@@ -111,7 +114,7 @@ glm::dvec4 Keyframes::at(double seconds, size_t lane) const {
     const size_t key = after > 0 ? after - 1 : 0;
     const bool holds = after == 0 || after == times_.size() || interpolation_ == Interpolation::step;
     const glm::dvec4 value = holds ? stored(key, lane) : between(key, seconds, lane);
-    return path_ == "rotation" ? unit(value) : value;
+    return type_.isRotation ? unit(value) : value;
 }
 
 } // namespace lavalight

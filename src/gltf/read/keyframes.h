@@ -26,14 +26,22 @@ class KeyTimes {
     std::map<size_t, std::vector<float>> times_; // by accessor
 };
 
+// What the keys of a channel are values of.
+struct KeyType {
+    std::string name;        // for messages: translation, or a pointer
+    size_t components = 1;   // of a value, 1 to 4
+    bool isArray = false;    // a key has several values of one component, as many as its accessor brings
+    bool isRotation = false; // quaternions
+};
+
 // The keys of one channel. The document and the times must outlive it.
 class Keyframes {
   public:
-    // `path` is the channel's: translation, rotation, scale or weights. Throws Error naming the accessor
-    // for times that do not ascend, and for values whose type or number does not fit path and times.
-    Keyframes(const GltfDocument& document, JsonView sampler, const std::string& path, KeyTimes& times);
+    // Throws Error naming the accessor for times that do not ascend, and for values whose type or number does
+    // not fit `type` and times.
+    Keyframes(const GltfDocument& document, JsonView sampler, KeyType type, KeyTimes& times);
 
-    // Values of one key: 1, or the number of weights.
+    // Values of one key: 1, or the length of the array.
     [[nodiscard]] size_t lanes() const { return lanes_; }
 
     // The value at a time in seconds; components that the type lacks are 0. Rotations are of unit length.
@@ -48,7 +56,7 @@ class Keyframes {
     [[nodiscard]] glm::dvec4 between(size_t key, double seconds, size_t lane) const;
 
     AccessorView output_;
-    std::string path_;
+    KeyType type_;
     Interpolation interpolation_ = Interpolation::linear;
     std::span<const float> times_;
     size_t lanes_ = 1;

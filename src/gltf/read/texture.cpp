@@ -1,10 +1,12 @@
-// Textures, samplers, KHR_texture_transform, EXT_texture_webp.
+// Textures, samplers, KHR_texture_transform, KHR_texture_basisu, EXT_texture_webp.
 #include "gltf/read/texture.h"
 
 #include <cmath>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+
+#include "gltf/check/extensions.h"
 
 namespace lavalight {
 namespace {
@@ -21,12 +23,14 @@ Wrap wrapOf(int mode) {
     return mode == kClampToEdge ? Wrap::clamp : mode == kMirroredRepeat ? Wrap::mirror : Wrap::repeat;
 }
 
-// Which image a texture names, whether there is one of that number or not.
+// Which image a texture names, whether there is one of that number or not. Extensions stand in the order in
+// which files want them tried; the plain image is there for readers without.
 std::optional<size_t> sourceOf(const Json& texture) {
     const Json none = Json::object();
     const Json& extensions = texture.contains("extensions") ? texture.at("extensions") : none;
-    if (extensions.contains("EXT_texture_webp") && extensions.at("EXT_texture_webp").contains("source"))
-        return extensions.at("EXT_texture_webp").at("source").get<size_t>();
+    for (const char* name : {"KHR_texture_basisu", "EXT_texture_webp"})
+        if (isExtensionRead(name) && extensions.contains(name) && extensions.at(name).contains("source"))
+            return extensions.at(name).at("source").get<size_t>();
     if (texture.contains("source"))
         return texture.at("source").get<size_t>();
     return std::nullopt;

@@ -23,7 +23,8 @@ struct GltfTexture {
     bool isNearest = false;
 };
 
-// Each element of `json`'s "textures". EXT_texture_webp's image goes before the plain one.
+// Each element of `json`'s "textures". Images of KHR_texture_basisu and EXT_texture_webp go before the plain
+// one.
 [[nodiscard]] std::vector<GltfTexture> readTextures(const nlohmann::json& json);
 
 // The texture that `info`, a material's reference to one, stands for; its `picture` is the number of a glTF

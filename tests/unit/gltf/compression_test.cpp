@@ -145,12 +145,12 @@ TEST(GltfMeshopt, ViewThatClaimsMoreThanItsStreamCanHoldIsRefusedBeforeItIsMade)
 TEST(GltfMeshopt, UnknownCodecsAreRefusedByNameUnlessTheDataIsThereToo) {
     Square square = compressedSquare();
     const size_t start = extensionOf(square)["byteOffset"];
-    square.builder.bytes[start] = static_cast<char>(0xA1);
-    EXPECT_NE(importError(square.builder).find("uses version 1 of the codec for ATTRIBUTES, which is not"),
+    square.builder.bytes[start] = static_cast<char>(0xA7);
+    EXPECT_NE(importError(square.builder).find("uses version 7 of the codec for ATTRIBUTES, which is not"),
               std::string::npos);
     Square filtered = compressedSquare();
-    extensionOf(filtered)["filter"] = "COLOR";
-    EXPECT_NE(importError(filtered.builder).find("uses the filter \"COLOR\""), std::string::npos);
+    extensionOf(filtered)["filter"] = "SHINY";
+    EXPECT_NE(importError(filtered.builder).find("uses the filter \"SHINY\""), std::string::npos);
 
     const int plain = filtered.builder.addView(kSquare);
     Json& view = filtered.builder.json["bufferViews"][filtered.positionsView];
@@ -159,6 +159,51 @@ TEST(GltfMeshopt, UnknownCodecsAreRefusedByNameUnlessTheDataIsThereToo) {
     declareBuffers(filtered.builder);
     EXPECT_EQ(filtered.builder.import().meshes.at(0).positions, kSquare);
 }
+
+#if MESHOPTIMIZER_VERSION >= 1000
+TEST(GltfMeshopt, VerticesOfCodecVersionOneComeBackAsTheyWent) {
+    GltfBuilder builder;
+    Bytes stream(meshopt_encodeVertexBufferBound(kSquare.size(), sizeof(glm::vec3)));
+    stream.resize(meshopt_encodeVertexBufferLevel(stream.data(), stream.size(), kSquare.data(),
+                                                  kSquare.size(), sizeof(glm::vec3), 3, 1));
+    ASSERT_EQ(stream.front(), 0xA1);
+    const int view = addCompressed(builder, stream, "ATTRIBUTES", 4, 12);
+    Json& extensions = builder.json["bufferViews"].back()["extensions"];
+    extensions["KHR_meshopt_compression"] = extensions["EXT_meshopt_compression"];
+    extensions.erase("EXT_meshopt_compression");
+    const int positions = builder.addAccessor(
+        {{"bufferView", view}, {"componentType", kFloat}, {"count", 4}, {"type", "VEC3"}});
+    const int corners = builder.addIndices(kCorners, kUnsignedInt);
+    builder.addNode(
+        {{"mesh", builder.addMesh({{"attributes", {{"POSITION", positions}}}, {"indices", corners}})}});
+    declareBuffers(builder);
+    EXPECT_EQ(builder.import().meshes.at(0).positions, kSquare);
+}
+
+TEST(GltfMeshopt, ColorFilterGivesTheColorsBack) {
+    GltfBuilder builder;
+    const std::vector<glm::vec4> colors = {
+        {1, 0, 0, 1}, {0, 1, 0, 1}, {0.2f, 0.4f, 0.8f, 1}, {1, 1, 1, 0.5f}};
+    std::vector<std::array<uint16_t, 4>> encoded(4);
+    meshopt_encodeFilterColor(encoded.data(), 4, 8, 16, &colors[0].x);
+    const int view = addCompressed(builder, encodeVertices(encoded), "ATTRIBUTES", 4, 8, "COLOR");
+    builder.json["bufferViews"].back()["byteStride"] = 8;
+    const int color = builder.addAccessor({{"bufferView", view},
+                                           {"componentType", kUnsignedShort},
+                                           {"normalized", true},
+                                           {"count", 4},
+                                           {"type", "VEC4"}});
+    const int corners = builder.addIndices(kCorners, kUnsignedInt);
+    builder.addNode({{"mesh", builder.addMesh({{"attributes",
+                                                {{"POSITION", builder.addVec3(kSquare)}, {"COLOR_0", color}}},
+                                               {"indices", corners}})}});
+    declareBuffers(builder);
+    const Mesh mesh = builder.import().meshes.at(0);
+    ASSERT_EQ(mesh.colors.size(), 4u);
+    for (size_t i = 0; i < colors.size(); ++i)
+        EXPECT_NEAR(glm::length(mesh.colors[i] - colors[i]), 0.0f, 2e-4f) << i;
+}
+#endif
 
 // The square as Draco has it, its positions exact.
 std::string dracoSquare() {

@@ -7,6 +7,8 @@
 
 #include "base/file.h"
 #include "gltf/check/extensions.h"
+#include "image/basis_universal.h"
+#include "unit/gltf/builder.h"
 
 namespace lavalight::test {
 namespace {
@@ -43,8 +45,34 @@ TEST(GltfExtensions, NamesAreFoundAsTheyAreSpelled) {
     EXPECT_TRUE(extensionNamed("KHR_materials_sheen")->hasRules());
     EXPECT_FALSE(extensionNamed("KHR_xmp")->hasRules());
     EXPECT_EQ(extensionNamed("khr_materials_sheen"), nullptr);
-    EXPECT_EQ(extensionNamed("KHR_texture_basisu"), nullptr);
     EXPECT_EQ(extensionNamed(""), nullptr);
+}
+
+TEST(GltfExtensions, BasisUniversalIsReadWhereItsTranscoderIsBuiltIn) {
+    EXPECT_EQ(isExtensionRead("KHR_texture_basisu"), hasBasisUniversal());
+    EXPECT_TRUE(isExtensionRead("KHR_xmp"));
+    EXPECT_FALSE(isExtensionRead("EXT_nobody_knows"));
+}
+
+TEST(GltfExtensions, GaussianSplatsAreRefusedByWhatTheyAre) {
+    GltfBuilder builder;
+    builder.addNode({{"mesh", builder.addTriangle()}});
+    builder.json["extensionsRequired"] = {"KHR_gaussian_splatting"};
+    const std::string error = importError(builder);
+    EXPECT_NE(error.find("KHR_gaussian_splatting"), std::string::npos) << error;
+    EXPECT_NE(error.find("Gaussian splats"), std::string::npos) << error;
+}
+
+TEST(GltfExtensions, WhatNoStillShowsIsTakenInSilence) {
+    for (const char* name : {"KHR_interactivity", "KHR_node_hoverability", "KHR_node_selectability",
+                             "KHR_xmp_json_ld", "EXT_mesh_opacity_micromap"}) {
+        GltfBuilder builder;
+        builder.addNode({{"mesh", builder.addTriangle()}, {"extensions", {{name, Json::object()}}}});
+        builder.json["extensionsRequired"] = {name};
+        const Scene scene = builder.import();
+        EXPECT_TRUE(scene.ignoredExtensions.empty()) << name;
+        EXPECT_EQ(warningsWith(scene, name), 0) << name;
+    }
 }
 
 } // namespace

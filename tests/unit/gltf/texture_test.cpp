@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "image/basis_universal.h"
 #include "unit/gltf/builder.h"
 
 namespace lavalight::test {
@@ -133,7 +134,7 @@ TEST(GltfTexture, PictureOfManyMaterialsIsDecodedOnce) {
 TEST(GltfTexture, UnreadablePicturesLeaveThePlainFactorsAndAWarning) {
     const std::vector<std::pair<std::string, const char*>> bad = {
         {"missing.png", "an embedded scene cannot refer to files"},
-        {"data:image/png;base64,AAAA", "it is not a PNG, JPEG or WebP file"},
+        {"data:image/png;base64,AAAA", "it is not a PNG, JPEG, WebP or KTX2 file"},
         {kBomb, "it has 16384 x 16384 texels, at most 134217728 are supported"},
         {std::string(kPng).substr(0, 80), "it is damaged"}};
     for (const auto& [uri, message] : bad) {
@@ -156,12 +157,34 @@ TEST(GltfTexture, JpegWithoutItsEndIsShownWithAWarning) {
 
 TEST(GltfTexture, TextureWithoutASourceLeavesThePlainFactors) {
     GltfBuilder builder = textured({{"index", 0}}, {kPng});
-    builder.json["textures"][0] = {{"extensions", {{"KHR_texture_basisu", {{"source", 0}}}}}};
+    builder.json["textures"][0] = {{"extensions", {{"EXT_texture_avif", {{"source", 0}}}}}};
     const Scene scene = builder.import();
     EXPECT_FALSE(scene.materials.at(0).texture(TextureSlot::baseColor).has_value());
-    EXPECT_EQ(warningsWith(scene, "KHR_texture_basisu"), 1);
-    builder.json["extensionsRequired"] = {"KHR_texture_basisu"};
-    EXPECT_NE(importError(builder).find("KHR_texture_basisu"), std::string::npos);
+    EXPECT_EQ(warningsWith(scene, "EXT_texture_avif"), 1);
+    builder.json["extensionsRequired"] = {"EXT_texture_avif"};
+    EXPECT_NE(importError(builder).find("EXT_texture_avif"), std::string::npos);
+}
+
+// 4 x 4 texels of (200, 100, 50, 25) as UASTC.
+constexpr const char* kKtx2 =
+    "data:image/ktx2;base64,q0tUWCAyMLsNChoKAAAAAAEAAAAEAAAABAAAAAAAAAAAAAAAAQAAAAEAAAAAAAAAaAAAACwAAAAAA"
+    "AAAAAAAAAAAAAAAAAAAAAAAAAAAAACUAAAAAAAAABAAAAAAAAAAEAAAAAAAAAAsAAAAAAAAAAIAKACmAAAAAAAAAAAAAAAAAAAAA"
+    "AAAAwAAAAAAAAAAAAAAABeZTCYDAAAAAAAAAAAAAAA=";
+
+TEST(GltfTexture, BasisUniversalGoesBeforeThePlainSource) {
+    GltfBuilder builder = textured({{"index", 0}}, {kPng16, kKtx2});
+    builder.json["textures"][0]["extensions"] = {{"KHR_texture_basisu", {{"source", 1}}}};
+    const Scene scene = builder.import();
+    ASSERT_EQ(scene.pictures.size(), 1u);
+    if (!hasBasisUniversal()) {
+        EXPECT_TRUE(scene.pictures[0].is16Bit);
+        EXPECT_EQ(warningsWith(scene, "KHR_texture_basisu"), 1);
+        return;
+    }
+    EXPECT_EQ(scene.pictures[0].width, 4u);
+    EXPECT_EQ(scene.pictures[0].bytes[0], 200);
+    EXPECT_EQ(scene.pictures[0].bytes[3], 25);
+    EXPECT_EQ(warningsWith(scene, "KHR_texture_basisu"), 0);
 }
 
 TEST(GltfTexture, ReferencesAreChecked) {

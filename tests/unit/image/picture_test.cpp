@@ -71,10 +71,10 @@ TEST(Picture, OtherFormatsThatTheLibraryKnowsAreNotDecoded) {
     const std::string gif =
         "GIF89a" +
         std::string("\x01\0\x01\0\x80\0\0\0\0\0\xFF\xFF\xFF,\0\0\0\0\x01\0\x01\0\0\x02\x02\x44\x01\0;", 29);
-    expectError(gif, "it is not a PNG, JPEG or WebP file");
-    expectError("P6 1 1 255\n123", "it is not a PNG, JPEG or WebP file");
-    expectError("", "it is not a PNG, JPEG or WebP file");
-    expectError("RIFF\x04", "not a PNG, JPEG or WebP");
+    expectError(gif, "it is not a PNG, JPEG, WebP or KTX2 file");
+    expectError("P6 1 1 255\n123", "it is not a PNG, JPEG, WebP or KTX2 file");
+    expectError("", "it is not a PNG, JPEG, WebP or KTX2 file");
+    expectError("RIFF\x04", "not a PNG, JPEG, WebP or KTX2");
     expectError(std::string("RIFF\x04\0\0\0WEBP", 12), "it is a damaged WebP file");
 }
 
