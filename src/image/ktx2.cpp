@@ -16,7 +16,7 @@ namespace {
 
 // A format of plain texels, by its number in Vulkan.
 struct PlainFormat {
-    std::array<uint32_t, 2> vkFormats; // UNORM and SRGB, equal where there is no second
+    std::array<uint32_t, 2> formatNumbers; // UNORM and SRGB, equal where there is no second
     uint32_t channels;
     bool is16Bit;
     bool isBgr = false;
@@ -37,12 +37,12 @@ constexpr std::array<PlainFormat, 10> kPlainFormats = {{
 
 const PlainFormat& plainFormatOf(const Ktx2File& file) {
     for (const PlainFormat& format : kPlainFormats)
-        if (format.vkFormats[0] == file.vkFormat || format.vkFormats[1] == file.vkFormat)
+        if (format.formatNumbers[0] == file.formatNumber || format.formatNumbers[1] == file.formatNumber)
             return format;
     throw Error(
         fmt::format("it is a KTX2 file of Vulkan's format {}, which is not supported; those of 8 and 16 "
                     "bits a channel are, and ETC1S and UASTC",
-                    file.vkFormat));
+                    file.formatNumber));
 }
 
 uint64_t blocksAcross(uint32_t texels) {

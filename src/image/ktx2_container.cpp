@@ -85,17 +85,17 @@ void readSwizzle(std::string_view pairs, Ktx2File& file) {
     }
 }
 
-Ktx2Coding codingOf(uint32_t vkFormat, uint32_t scheme, uint8_t model) {
+Ktx2Coding codingOf(uint32_t formatNumber, uint32_t scheme, uint8_t model) {
     constexpr uint32_t kUndefined = 0;
-    if (vkFormat != kUndefined && (scheme == kNoScheme || scheme == kZstandard))
+    if (formatNumber != kUndefined && (scheme == kNoScheme || scheme == kZstandard))
         return Ktx2Coding::plain;
-    if (vkFormat == kUndefined && scheme == kBasisLz && model == kModelEtc1s)
+    if (formatNumber == kUndefined && scheme == kBasisLz && model == kModelEtc1s)
         return Ktx2Coding::etc1s;
-    if (vkFormat == kUndefined && (scheme == kNoScheme || scheme == kZstandard) && model == kModelUastc)
+    if (formatNumber == kUndefined && (scheme == kNoScheme || scheme == kZstandard) && model == kModelUastc)
         return Ktx2Coding::uastc;
     throw Error(fmt::format("it is a KTX2 file of format {}, colour model {} and supercompression {}, which "
                             "glTF does not have; convert it to ETC1S or UASTC",
-                            vkFormat, model, scheme));
+                            formatNumber, model, scheme));
 }
 
 } // namespace
@@ -109,7 +109,7 @@ Ktx2File readKtx2(std::string_view bytes) {
     (void)reader.view(0, kHeaderBytes + kLevelBytes, "header");
     requireFlat(reader);
     Ktx2File file;
-    file.vkFormat = reader.word(12);
+    file.formatNumber = reader.word(12);
     file.width = reader.word(20);
     file.height = reader.word(24);
     requirePictureFits(file.width, file.height);
@@ -121,7 +121,7 @@ Ktx2File readKtx2(std::string_view bytes) {
     readSwizzle(reader.view(reader.word(56), reader.word(60), "list of keys"), file);
     file.globalData = reader.view(reader.number(64, 8), reader.number(72, 8), "global data");
     const uint32_t scheme = reader.word(44);
-    file.coding = codingOf(file.vkFormat, scheme, model);
+    file.coding = codingOf(file.formatNumber, scheme, model);
     file.isZstandard = scheme == kZstandard;
     file.level = reader.view(reader.number(80, 8), reader.number(88, 8), "largest level");
     file.levelBytes = file.isZstandard ? reader.number(96, 8) : file.level.size();

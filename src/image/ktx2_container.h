@@ -10,7 +10,7 @@ namespace lavalight {
 
 // How the texels of the largest level are stored.
 enum class Ktx2Coding : uint8_t {
-    plain, // texels of vkFormat
+    plain, // texels of a format that Vulkan numbers
     etc1s, // Basis Universal, with codebooks in the global data (BasisLZ)
     uastc, // Basis Universal, blocks of 4x4 texels in 16 bytes each
 };
@@ -18,7 +18,7 @@ enum class Ktx2Coding : uint8_t {
 // Views of a file's bytes, all of them within the file.
 struct Ktx2File {
     Ktx2Coding coding = Ktx2Coding::plain;
-    uint32_t vkFormat = 0;
+    uint32_t formatNumber = 0; // vkFormat
     uint32_t width = 0;
     uint32_t height = 0;
     uint32_t levelCount = 0;

@@ -22,7 +22,7 @@ std::string number(uint64_t value, size_t size) {
 
 // A file of one level, by default of two RGBA texels side by side.
 struct Ktx2 {
-    uint32_t vkFormat = 37;
+    uint32_t formatNumber = 37;
     uint32_t width = 2;
     uint32_t height = 1;
     uint32_t depth = 0;
@@ -45,7 +45,7 @@ struct Ktx2 {
         const uint64_t keysAt = descriptorAt + descriptor.size();
         const uint64_t levelAt = keysAt + keys.size();
         std::string file = "\xABKTX 20\xBB\r\n\x1A\n";
-        for (const uint32_t word : {vkFormat, 1u, width, height, depth, layers, faces, 1u, scheme})
+        for (const uint32_t word : {formatNumber, 1u, width, height, depth, layers, faces, 1u, scheme})
             file += number(word, 4);
         file += number(descriptorAt, 4) + number(descriptor.size(), 4);
         file += number(keys.empty() ? 0 : keysAt, 4) + number(keys.size(), 4);
@@ -86,17 +86,17 @@ TEST(Ktx2, ZstandardIsUndone) {
 }
 
 TEST(Ktx2, ChannelsThatAFormatLacksAreBlackAndOpaque) {
-    const Ktx2 file{.vkFormat = 16, .level = "\x01\x02\x03\x04", .levelBytes = 4};
+    const Ktx2 file{.formatNumber = 16, .level = "\x01\x02\x03\x04", .levelBytes = 4};
     EXPECT_EQ(file.decode().bytes, (Texels{1, 2, 0, 255, 3, 4, 0, 255}));
 }
 
 TEST(Ktx2, BlueFirstIsPutRight) {
-    const Ktx2 file{.vkFormat = 36, .level = "\x01\x02\x03\x04\x05\x06", .levelBytes = 6};
+    const Ktx2 file{.formatNumber = 36, .level = "\x01\x02\x03\x04\x05\x06", .levelBytes = 6};
     EXPECT_EQ(file.decode().bytes, (Texels{3, 2, 1, 255, 6, 5, 4, 255}));
 }
 
 TEST(Ktx2, SixteenBitsStaySixteen) {
-    const Ktx2 file{.vkFormat = 70, .level = "\x01\x02\x03\x04", .levelBytes = 4};
+    const Ktx2 file{.formatNumber = 70, .level = "\x01\x02\x03\x04", .levelBytes = 4};
     const Picture picture = file.decode();
     EXPECT_TRUE(picture.is16Bit);
     EXPECT_EQ(picture.bytes, (Texels{1, 2, 0, 0, 0, 0, 255, 255, 3, 4, 0, 0, 0, 0, 255, 255}));
@@ -105,7 +105,7 @@ TEST(Ktx2, SixteenBitsStaySixteen) {
 TEST(Ktx2, ASwizzleMakesGreyOfOneChannel) {
     const std::string key("KTXswizzle\0rrr1\0", 16);
     const std::string other("KTXorientation\0rd\0", 18);
-    const Ktx2 file{.vkFormat = 9,
+    const Ktx2 file{.formatNumber = 9,
                     .level = "\x07\x09",
                     .levelBytes = 2,
                     .keys = number(18, 4) + other + number(0, 2) + number(16, 4) + key};
@@ -136,8 +136,8 @@ TEST(Ktx2, WhatIsNoFlatPictureIsRefusedByItsKind) {
     EXPECT_NE((Ktx2{.depth = 2}.error().find("three dimensions")), std::string::npos);
     EXPECT_NE((Ktx2{.layers = 2}.error().find("several layers")), std::string::npos);
     EXPECT_NE((Ktx2{.faces = 6}.error().find("cube map")), std::string::npos);
-    EXPECT_NE((Ktx2{.vkFormat = 145}.error().find("format 145")), std::string::npos);
-    EXPECT_NE((Ktx2{.vkFormat = 0, .model = 162}.error().find("colour model 162")), std::string::npos);
+    EXPECT_NE((Ktx2{.formatNumber = 145}.error().find("format 145")), std::string::npos);
+    EXPECT_NE((Ktx2{.formatNumber = 0, .model = 162}.error().find("colour model 162")), std::string::npos);
     EXPECT_NE((Ktx2{.width = 60000, .height = 60000}.error().find("at most")), std::string::npos);
 }
 
@@ -152,8 +152,13 @@ TEST(Ktx2, UastcBlocksAreTranscoded) {
     if (!hasBasisUniversal())
         GTEST_SKIP() << "built without Basis Universal";
     const std::string level = solidBlock(200, 100, 50, 25) + solidBlock(1, 2, 3, 255);
-    const Ktx2 file{
-        .vkFormat = 0, .width = 6, .height = 3, .model = 166, .channel = 3, .level = level, .levelBytes = 32};
+    const Ktx2 file{.formatNumber = 0,
+                    .width = 6,
+                    .height = 3,
+                    .model = 166,
+                    .channel = 3,
+                    .level = level,
+                    .levelBytes = 32};
     const Picture picture = file.decode();
     ASSERT_EQ(picture.bytes.size(), 6u * 3 * 4);
     EXPECT_EQ(Texels(picture.bytes.begin(), picture.bytes.begin() + 4), (Texels{200, 100, 50, 25}));
@@ -163,7 +168,7 @@ TEST(Ktx2, UastcBlocksAreTranscoded) {
 TEST(Ktx2, GreenThatIsKeptInAlphaIsGreen) {
     if (!hasBasisUniversal())
         GTEST_SKIP() << "built without Basis Universal";
-    const Ktx2 file{.vkFormat = 0,
+    const Ktx2 file{.formatNumber = 0,
                     .width = 4,
                     .height = 4,
                     .model = 166,
@@ -177,7 +182,7 @@ TEST(Ktx2, GreenThatIsKeptInAlphaIsGreen) {
 TEST(Ktx2, WithoutTheTranscoderTheMessageSaysHowToGetIt) {
     if (hasBasisUniversal())
         GTEST_SKIP() << "built with Basis Universal";
-    const Ktx2 file{.vkFormat = 0,
+    const Ktx2 file{.formatNumber = 0,
                     .width = 4,
                     .height = 4,
                     .model = 166,
