@@ -4,10 +4,12 @@
 
 #include <string>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <zstd.h>
 
 #include "base/error.h"
+#include "base/file.h"
 #include "image/basis_universal.h"
 
 namespace lavalight::test {
@@ -145,7 +147,9 @@ TEST(Ktx2, WhatIsNoFlatPictureIsRefusedByItsKind) {
 std::string solidBlock(uint32_t red, uint32_t green, uint32_t blue, uint32_t alpha) {
     constexpr uint64_t kMode8 = 0x17;
     const uint64_t colors = red | green << 8u | blue << 16u | static_cast<uint64_t>(alpha) << 24u;
-    return number(kMode8 | colors << 5u, 8) + number(0, 8);
+    std::string block = number(kMode8 | colors << 5u, 8);
+    block.resize(16, '\0');
+    return block;
 }
 
 TEST(Ktx2, UastcBlocksAreTranscoded) {
@@ -177,6 +181,42 @@ TEST(Ktx2, GreenThatIsKeptInAlphaIsGreen) {
                     .levelBytes = 16};
     const Picture picture = file.decode();
     EXPECT_EQ(Texels(picture.bytes.begin(), picture.bytes.begin() + 4), (Texels{200, 25, 0, 255}));
+}
+
+// Quarters of 4 x 4 texels, which are blocks: each has one colour, so that nothing but its rounding is lost.
+TEST(Ktx2, FilesOfAnEncoderShowTheirColorsWhereTheyAre) {
+    if (!hasBasisUniversal())
+        GTEST_SKIP() << "built without Basis Universal";
+    for (const char* name : {"etc1s.ktx2", "uastc.ktx2"}) {
+        const std::string bytes = readFile(fmt::format("{}/tests/field/{}", LAVALIGHT_SOURCE_DIR, name));
+        const Picture picture = decodePicture(bytes);
+        ASSERT_EQ(picture.width, 8u) << name;
+        ASSERT_EQ(picture.height, 8u) << name;
+        const auto expectNear = [&](size_t x, size_t y, const Texels& color) {
+            for (size_t i = 0; i < 4; ++i)
+                EXPECT_NEAR(picture.bytes[4 * (8 * y + x) + i], color[i], 4) << name << " " << x << " " << y;
+        };
+        expectNear(0, 0, {255, 0, 0, 255});
+        expectNear(3, 3, {255, 0, 0, 255});
+        expectNear(7, 0, {0, 255, 0, 255});
+        expectNear(0, 7, {0, 0, 255, 128});
+        expectNear(7, 7, {255, 255, 255, 0});
+    }
+}
+
+TEST(Ktx2, DamagedStreamsOfAnEncoderAreRefusedOrShown) {
+    if (!hasBasisUniversal())
+        GTEST_SKIP() << "built without Basis Universal";
+    const std::string bytes = readFile(LAVALIGHT_SOURCE_DIR "/tests/field/etc1s.ktx2");
+    for (size_t i = 80; i < bytes.size(); ++i) {
+        std::string damaged = bytes;
+        damaged[i] = static_cast<char>(damaged[i] ^ 0x55);
+        try {
+            EXPECT_LE(decodePicture(damaged).bytes.size(), 256u);
+        } catch (const Error&) {
+            continue; // a message, which is all that it may be
+        }
+    }
 }
 
 TEST(Ktx2, WithoutTheTranscoderTheMessageSaysHowToGetIt) {
