@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "gltf/import.h"
+#include "image/basis_universal.h"
 #include "support/sound_scene.h"
 
 namespace lavalight::test {
@@ -178,6 +179,51 @@ TEST_F(Assets, GlassOfTheLivingRoomIsSolidAndClear) {
               1);
     for (const std::string& warning : scene.warnings)
         EXPECT_EQ(warning.find("attenuation"), std::string::npos) << warning;
+}
+
+// Every row of cubes is compressed in another way; the first is not. Columns are of one kind.
+TEST_F(Assets, EveryCubeOfMeshoptCubeTestIsTheOneAboveIt) {
+    const Scene scene = importGltf(folder_ / "meshopt-samples/MeshoptCubeTest/MeshoptCubeTest.gltf");
+    EXPECT_TRUE(scene.warnings.empty()) << scene.warnings.front();
+    std::vector<const Mesh*> cubes;
+    for (const Mesh& mesh : scene.meshes)
+        if (mesh.name.starts_with("Cube_"))
+            cubes.push_back(&mesh);
+    ASSERT_EQ(cubes.size(), 25u);
+    for (size_t i = 5; i < cubes.size(); ++i) {
+        const Mesh& mesh = *cubes[i];
+        const Mesh& plain = *cubes[i % 5];
+        ASSERT_EQ(mesh.positions.size(), plain.positions.size()) << mesh.name;
+        ASSERT_EQ(mesh.colors.size(), plain.colors.size()) << mesh.name;
+        const glm::vec3 apart = mesh.positions.front() - plain.positions.front();
+        for (size_t v = 0; v < mesh.positions.size(); ++v) {
+            EXPECT_LT(glm::length(mesh.positions[v] - plain.positions[v] - apart), 1e-3f) << mesh.name;
+            EXPECT_LT(glm::length(mesh.normals[v] - plain.normals[v]), 0.02f) << mesh.name;
+            const float color = mesh.colors.empty() ? 0.0f : glm::length(mesh.colors[v] - plain.colors[v]);
+            EXPECT_LT(color, 0.02f) << mesh.name;
+        }
+    }
+}
+
+// The mean of a channel of the base colour's picture.
+double meanOf(const Scene& scene, size_t material, size_t channel) {
+    const std::optional<Texture>& texture = scene.materials.at(material).texture(TextureSlot::baseColor);
+    const Picture& picture = scene.pictures.at(texture.value().picture);
+    double sum = 0.0;
+    for (size_t i = channel; i < picture.bytes.size(); i += 4)
+        sum += picture.bytes[i];
+    return sum / (picture.bytes.size() / 4.0);
+}
+
+TEST_F(Assets, LampInKtx2HasTheColorsOfTheOneInJpeg) {
+    if (!hasBasisUniversal())
+        GTEST_SKIP() << "built without Basis Universal";
+    const Scene ktx2 = importGltf(folder_ / "AnisotropyBarnLamp/glTF-KTX2-Basisu/AnisotropyBarnLamp.gltf");
+    const Scene jpeg = importGltf(folder_ / "AnisotropyBarnLamp/glTF-noKTX/AnisotropyBarnLamp.gltf");
+    ASSERT_EQ(ktx2.pictures.size(), 4u);
+    ASSERT_EQ(jpeg.pictures.size(), 4u);
+    for (size_t channel = 0; channel < 3; ++channel)
+        EXPECT_NEAR(meanOf(ktx2, 0, channel), meanOf(jpeg, 0, channel), 4.0) << channel;
 }
 
 } // namespace
