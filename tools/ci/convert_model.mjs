@@ -31,7 +31,7 @@ async function plainKtx2(document) {
 
 const options = {generateMipmap: true, imageDecoder};
 const conversions = {
-  smaller: () => textureCompress({encoder: sharp, targetFormat: 'png', resize: [512, 512]}),
+  smaller: () => textureCompress({encoder: sharp, targetFormat: 'png', resize: [1024, 1024]}),
   etc1s: () => ktx2({...options, isUASTC: false, qualityLevel: 255, compressionLevel: 2}),
   uastc: () => ktx2({...options, isUASTC: true, needSupercompression: false}),
   'uastc-zstd': () => ktx2({...options, isUASTC: true, needSupercompression: true}),
