@@ -131,9 +131,11 @@ std::vector<uint32_t> denoisedPixels(const Rendering& rendering, ToneMapper& ton
                           meanOf(rendering, kDenoisedShadow));
 }
 
-void writeOutputs(RenderJob& job, const Outputs& outputs, OutputStyle& style, ToneMapper* toneMapper) {
+FinishedImage finishImage(RenderJob& job, OutputStyle& style, ToneMapper* toneMapper) {
     RenderReport& report = job.report;
-    Rendering rendering = job.renderer->rendering();
+    FinishedImage image;
+    image.rendering = job.renderer->rendering();
+    Rendering& rendering = image.rendering;
     if (report.settings.image.crop)
         rendering.place = placeOf(partOf(report.settings.image));
     fillResults(report, *job.renderer, *job.device, rendering, job.scene);
@@ -145,37 +147,53 @@ void writeOutputs(RenderJob& job, const Outputs& outputs, OutputStyle& style, To
     if (report.tallies.crowdedPaths > 0)
         warn(report, crowdedText(job.scene, report.tallies));
     report.rays = report.rays + job.before.rays;
-    if (!outputs.exr.empty() && style.keepsFilm) {
-        writeFilmFile(outputs.exr, job.film(), denoisedLayers(rendering));
-    } else if (!outputs.exr.empty()) {
-        const Metadata metadata = exrMetadata(report);
-        ExrContents ids;
-        addIdLayers(job.renderer->film().ids(), rendering.sampleCounts, metadata, ids);
-        writeExr(outputs.exr, rendering, metadata, ids);
-    }
-    if (!outputs.png.empty()) {
-        assert(toneMapper != nullptr);
-        const bool exposesByImage = std::exchange(style.exposesByImage, false);
-        if (exposesByImage)
-            style.tone.exposure = autoExposure(rendering);
-        report.tone = style.tone;
-        const Layer* denoised = rendering.find(kDenoisedLayer);
-        const std::vector<uint32_t> pixels = denoised != nullptr
-                                                 ? denoisedPixels(rendering, *toneMapper, style.tone)
-                                                 : toneMapper->map(job.renderer->film(), style.tone);
-        const std::optional<Image> coverage = coverageWithoutShadow(rendering);
-        const bool isDark = !job.scene.environmentMap && !report.settings.lighting.constant;
-        warn(report, extremesText(pixels, coverage ? &*coverage : nullptr,
-                                  fmt::format("{}{}{}", exposesByImage ? "" : "--exposure auto",
-                                              !exposesByImage && isDark ? ", or " : "",
-                                              isDark ? "--env studio" : "")));
-        writePng(outputs.png, rendering.radiance().width, rendering.radiance().height, pixels,
-                 pngTexts(style.tone));
-    }
+    if (style.keepsFilm)
+        image.film = job.film();
+    else
+        addIdLayers(job.renderer->film().ids(), rendering.sampleCounts, exrMetadata(report), image.ids);
+    if (toneMapper == nullptr)
+        return image;
+    const bool exposesByImage = std::exchange(style.exposesByImage, false);
+    if (exposesByImage)
+        style.tone.exposure = autoExposure(rendering);
+    image.tone = report.tone = style.tone;
+    image.pixels = rendering.find(kDenoisedLayer) != nullptr
+                       ? denoisedPixels(rendering, *toneMapper, style.tone)
+                       : toneMapper->map(job.renderer->film(), style.tone);
+    const std::optional<Image> coverage = coverageWithoutShadow(rendering);
+    const bool isDark = !job.scene.environmentMap && !report.settings.lighting.constant;
+    warn(report,
+         extremesText(image.pixels, coverage ? &*coverage : nullptr,
+                      fmt::format("{}{}{}", exposesByImage ? "" : "--exposure auto",
+                                  !exposesByImage && isDark ? ", or " : "", isDark ? "--env studio" : "")));
+    return image;
+}
+
+void writeImageExr(const std::filesystem::path& path, const FinishedImage& image,
+                   const RenderReport& report) {
+    if (image.film)
+        writeFilmFile(path, *image.film, denoisedLayers(image.rendering));
+    else
+        writeExr(path, image.rendering, exrMetadata(report), image.ids);
+}
+
+void writeImagePng(const std::filesystem::path& path, const FinishedImage& image) {
+    assert(image.tone);
+    const Image& radiance = image.rendering.radiance();
+    writePng(path, radiance.width, radiance.height, image.pixels, pngTexts(*image.tone));
+}
+
+void writeOutputs(RenderJob& job, const Outputs& outputs, OutputStyle& style, ToneMapper* toneMapper) {
+    assert(outputs.png.empty() || toneMapper != nullptr);
+    const FinishedImage image = finishImage(job, style, outputs.png.empty() ? nullptr : toneMapper);
+    if (!outputs.exr.empty())
+        writeImageExr(outputs.exr, image, job.report);
+    if (!outputs.png.empty())
+        writeImagePng(outputs.png, image);
     job.watch.lap("write");
-    addPartsOfStages(report, job);
+    addPartsOfStages(job.report, job);
     if (!outputs.report.empty())
-        writeFileAtomically(outputs.report, reportJson(report));
+        writeFileAtomically(outputs.report, reportJson(job.report));
 }
 
 } // namespace lavalight

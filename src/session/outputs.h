@@ -2,12 +2,16 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "base/input_files.h"
 #include "denoise/denoiser.h"
+#include "film/film_file.h"
+#include "image/exr.h"
 #include "image/png.h"
 #include "image/rendering.h"
 #include "render/tone_mapper.h"
@@ -45,8 +49,24 @@ struct OutputStyle {
     uint32_t layers = 0;                           // that the EXR file is asked for (RenderSettings::layers)
 };
 
-// Writes the image so far, and completes the job's report. An exposure that the image settles goes into
-// `style`. `toneMapper` may be null where there is no PNG. Throws Error.
+// An image so far, with all that its files are written from.
+struct FinishedImage {
+    Rendering rendering;
+    ExrContents ids;                    // layers of ids
+    std::optional<FilmFile> film;       // where the EXR file holds it
+    std::optional<ToneSettings> tone{}; // of the pixels
+    std::vector<uint32_t> pixels;       // sRGB with alpha, as PNG files hold them; empty: none were asked for
+};
+
+// Completes the job's report. An exposure that the image settles goes into `style`. Pixels are made where
+// there is a tone mapper. Throws Error.
+[[nodiscard]] FinishedImage finishImage(RenderJob& job, OutputStyle& style, ToneMapper* toneMapper);
+
+// Throws Error.
+void writeImageExr(const std::filesystem::path& path, const FinishedImage& image, const RenderReport& report);
+void writeImagePng(const std::filesystem::path& path, const FinishedImage& image);
+
+// Writes the image so far: finishImage() and its files. `toneMapper` may be null where there is no PNG.
 void writeOutputs(RenderJob& job, const Outputs& outputs, OutputStyle& style, ToneMapper* toneMapper);
 
 // Text chunks of a PNG.

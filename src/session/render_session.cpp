@@ -47,6 +47,8 @@ PreparedScene complete(Scene scene, const Camera& camera, const RenderSettings& 
 }
 
 Scene loadScene(const RenderPlan& plan, const ImportOptions& moment) {
+    if (plan.loaded)
+        return *plan.loaded;
     return loadLitScene(plan.scene, seenFrom(plan.camera, moment), plan.settings.lighting);
 }
 
@@ -79,6 +81,14 @@ void RenderSession::use(const std::shared_ptr<ShaderOverlay>& overlay) {
 void RenderSession::use(RenderSettings settings) {
     settings.provenance.changedShaders = std::move(plan_.settings.provenance.changedShaders);
     plan_.settings = std::move(settings);
+}
+
+void RenderSession::use(RenderPlan plan) {
+    plan.settings.provenance.changedShaders = std::move(plan_.settings.provenance.changedShaders);
+    plan_ = std::move(plan);
+    standIn_.reset();
+    groundHeight_.reset();
+    isWarned_ = false;
 }
 
 // The camera that stands in, if there is one; each moment has an origin of its own.
@@ -201,6 +211,12 @@ void RenderSession::render(RenderJob& job, Checkpoint& checkpoint, bool resumes,
     });
     if (checkpoint.isWanted())
         checkpoint.write([&] { return job.film(); });
+}
+
+FinishedImage RenderSession::image(RenderJob& job) {
+    device_->requireNoValidationMessages();
+    job.describeInputs(plan_.settings.provenance.changedShaders);
+    return finishImage(job, plan_.style, toneMapper_ ? &*toneMapper_ : nullptr);
 }
 
 void RenderSession::write(RenderJob& job, const Outputs& outputs) {

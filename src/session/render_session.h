@@ -24,6 +24,8 @@ struct RenderPlan {
     CameraChoice camera;
     gpu::DeviceConfig device;
     OutputStyle style;
+    // That scene with its light, where it is at hand already; null: it is loaded.
+    std::shared_ptr<const Scene> loaded{};
 };
 
 // A scene that was loaded for a render, its camera, and settings that are complete and checked.
@@ -54,6 +56,8 @@ class RenderSession {
     void turn(float turns) { plan_.camera.turns = turns; }
     // Settings for the jobs to come, but for the record of shaders.
     void use(RenderSettings settings);
+    // Another plan for the jobs to come, of the same device: whatever scenes left behind is forgotten.
+    void use(RenderPlan plan);
 
     // What follows an image in a sequence, for its layer of motion.
     struct NextMoment {
@@ -76,6 +80,8 @@ class RenderSession {
     void render(RenderJob& job, Checkpoint& checkpoint, bool resumes, const RenderJob::KeepGoing& keepGoing);
     // Writes the image so far. Throws Error, also for messages of the validation layer.
     void write(RenderJob& job, const Outputs& outputs);
+    // The image so far, with its pixels where prepare() was told of a PNG. Throws Error as write() does.
+    [[nodiscard]] FinishedImage image(RenderJob& job);
     // Ends a job; its kernels serve the next one.
     void finish(RenderJob job) { kernels_.emplace(job.renderer->releaseKernels()); }
 

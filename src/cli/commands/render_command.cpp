@@ -34,13 +34,8 @@ void printSummary(const RenderReport& report) {
 } // namespace
 
 RenderCommand::RenderCommand(CLI::App& app)
-    : Command(app, "render", "Render a scene to an image"), options_(parser()), crop_(parser()),
-      sceneOptions_(parser()), frames_(parser()), shaders_(parser()), tone_(parser()), background_(parser()),
-      ground_(parser()), layers_(parser()),
-      denoise_(parser(), {"Denoise the PNG, by Intel Open Image Denoise; the EXR keeps its colour and gets a "
-                          "layer denoised. Without a word: high",
-                          DenoiseQuality::high}),
-      checkpoints_(parser()) {
+    : Command(app, "render", "Render a scene to an image"), options_(parser()), frames_(parser()),
+      shaders_(parser()), checkpoints_(parser()) {
     shaders_.declareWatch(parser());
     parser()
         .add_option("input", scene_,
@@ -64,31 +59,19 @@ RenderCommand::RenderCommand(CLI::App& app)
 
 RenderPlan RenderCommand::plan() const {
     RenderPlan plan = options_.plan(scene_);
-    plan.settings.background = background_.settings();
-    plan.settings.ground = ground_.settings();
-    plan.settings.layers = layers_.layers();
-    plan.settings.image.crop = crop_.window();
     if (frames_.isTurntable() && plan.camera.view == NamedView::none)
         plan.camera.view = NamedView::threeQuarter;
-    plan.style = {options_.keepsFilm() || plan.settings.image.crop, tone_.settings(), tone_.isAutomatic()};
-    plan.style.tone.backdrop = background_.backdrop();
-    plan.style.layers = plan.settings.layers;
-    if (const std::optional<DenoiseQuality> quality = denoise_.quality()) {
-        plan.style.quality = *quality;
-        plan.style.denoiser = std::make_shared<const Denoiser>();
-        plan.settings.layers |= kDenoisingLayers;
-    }
     return plan;
 }
 
 void RenderCommand::checkOptions() const {
-    if (background_.backdrop() && outputs_.png.empty())
+    if (options_.hasBackdrop() && outputs_.png.empty())
         throw UsageError("--background: a colour is for a PNG; give -o OUT.png, or --background transparent");
-    if (tone_.isGiven() && outputs_.png.empty())
+    if (options_.hasTone() && outputs_.png.empty())
         throw UsageError("--tonemap and --exposure are for a PNG; give -o OUT.png, or leave them out");
-    if (layers_.layers() != 0 && outputs_.exr.empty())
+    if (options_.layers() != 0 && outputs_.exr.empty())
         throw UsageError("--aov is for an EXR; give -o OUT.exr, or leave it out");
-    if ((layers_.layers() >> kMotionPlane & 1u) != 0 && !frames_.isAsked())
+    if ((options_.layers() >> kMotionPlane & 1u) != 0 && !frames_.isAsked())
         throw UsageError("--aov motion: motion leads to the next frame; give --frames or --turntable");
     if (frames_.isAsked() && shaders_.isWatching())
         throw UsageError(
@@ -148,12 +131,12 @@ int RenderCommand::run() {
     Checkpoint checkpoint(outputs_.checkpoint, checkpoints_.interval());
     return shaders_.isWatching()
                ? runWatching(session)
-               : renderMoment(session, {sceneOptions_.importOptions(), {}}, outputs_, checkpoint);
+               : renderMoment(session, {options_.scene().importOptions(), {}}, outputs_, checkpoint);
 }
 
 ImportOptions RenderCommand::momentOf(uint32_t frame) const {
-    return frames_.isTurntable() ? sceneOptions_.importOptions()
-                                 : sceneOptions_.importOptionsAt(frames_.range().secondsOf(frame));
+    return frames_.isTurntable() ? options_.scene().importOptions()
+                                 : options_.scene().importOptionsAt(frames_.range().secondsOf(frame));
 }
 
 int RenderCommand::runSequence(RenderSession& session) const {
@@ -193,7 +176,7 @@ int RenderCommand::renderMoment(RenderSession& session, const Moment& moment, co
 // alone.
 int RenderCommand::runWatching(RenderSession& session) const {
     FileWatch saves(shaders_.folder());
-    RenderJob job = session.prepare(sceneOptions_.importOptions(), outputs_);
+    RenderJob job = session.prepare(options_.scene().importOptions(), outputs_);
     const InterruptGuard guard;
     std::shared_ptr<ShaderOverlay> next;
     const auto look = [&](std::chrono::milliseconds atMost) {

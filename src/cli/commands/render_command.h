@@ -7,17 +7,10 @@
 #include <vector>
 
 #include "cli/command.h"
-#include "cli/options/background_options.h"
 #include "cli/options/checkpoint_options.h"
-#include "cli/options/crop_options.h"
-#include "cli/options/denoise_options.h"
 #include "cli/options/frame_options.h"
-#include "cli/options/ground_options.h"
-#include "cli/options/layer_options.h"
-#include "cli/options/render_options.h"
-#include "cli/options/scene_options.h"
+#include "cli/options/picture_options.h"
 #include "cli/options/shader_options.h"
-#include "cli/options/tone_options.h"
 #include "session/render_session.h"
 
 namespace lavalight {
@@ -49,16 +42,9 @@ class RenderCommand : public Command {
                                    Checkpoint& checkpoint) const;
     void finishImage(RenderSession& session, RenderJob& job, const Outputs& outputs) const;
 
-    RenderOptions options_;
-    CropOptions crop_;
-    SceneOptions sceneOptions_;
+    PictureOptions options_;
     FrameOptions frames_;
     ShaderOptions shaders_;
-    ToneOptions tone_;
-    BackgroundOptions background_;
-    GroundOptions ground_;
-    LayerOptions layers_;
-    DenoiseOptions denoise_;
     CheckpointOptions checkpoints_;
     std::string scene_ = "cornell-box";
     std::vector<std::string> pictures_; // -o
