@@ -4,6 +4,9 @@ add_library(lavalight_options INTERFACE)
 # No contraction to fused multiply-adds: the same bits on every processor.
 target_compile_options(lavalight_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow
     $<$<BOOL:${LAVALIGHT_WERROR}>:-Werror> -ffp-contract=off)
+# The Python module is a shared library of the same objects. Executables have the option, too, for precompiled headers of
+# libraries serve them.
+target_compile_options(lavalight_options INTERFACE $<$<BOOL:${LAVALIGHT_PYTHON}>:-fPIC>)
 # g++ 13 and newer report members of an empty std::optional or std::variant as used uninitialised.
 target_compile_options(lavalight_options INTERFACE
     $<$<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_GREATER_EQUAL:$<CXX_COMPILER_VERSION>,13>>:-Wno-maybe-uninitialized>)

@@ -47,9 +47,7 @@ void bringLight(const LightingSettings& lighting, Scene& scene) {
 
 } // namespace
 
-Scene loadLitScene(const std::string& nameOrPath, const ImportOptions& options,
-                   const LightingSettings& lighting) {
-    Scene scene = loadScene(nameOrPath, options);
+void lightScene(Scene& scene, const LightingSettings& lighting) {
     if (bringsLight(lighting)) {
         bringLight(lighting, scene);
     } else if (!scene.hasOwnLight) {
@@ -60,6 +58,12 @@ Scene loadLitScene(const std::string& nameOrPath, const ImportOptions& options,
     }
     if (lighting.rotation != 0.0f && !scene.environmentMap)
         throw UsageError("--env-rotation: cannot turn the environment: it is not a map; try --env studio");
+}
+
+Scene loadLitScene(const std::string& nameOrPath, const ImportOptions& options,
+                   const LightingSettings& lighting) {
+    Scene scene = loadScene(nameOrPath, options);
+    lightScene(scene, lighting);
     return scene;
 }
 

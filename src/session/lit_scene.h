@@ -17,6 +17,9 @@ namespace lavalight {
 [[nodiscard]] Scene loadLitScene(const std::string& nameOrPath, const ImportOptions& options,
                                  const LightingSettings& lighting);
 
+// The same for a scene that is loaded already.
+void lightScene(Scene& scene, const LightingSettings& lighting);
+
 // The height of the ground that belongs right below the scene, in the world.
 [[nodiscard]] double groundHeightOf(const Scene& scene);
 

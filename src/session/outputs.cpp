@@ -151,6 +151,7 @@ FinishedImage finishImage(RenderJob& job, OutputStyle& style, ToneMapper* toneMa
         image.film = job.film();
     else
         addIdLayers(job.renderer->film().ids(), rendering.sampleCounts, exrMetadata(report), image.ids);
+    addPartsOfStages(report, job);
     if (toneMapper == nullptr)
         return image;
     const bool exposesByImage = std::exchange(style.exposesByImage, false);

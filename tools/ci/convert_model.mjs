@@ -1,7 +1,7 @@
-// Converts a glTF file: node convert_model.mjs smaller|etc1s|uastc|uastc-zstd|plain|meshopt IN OUT. For tools/ci/converters, which
+// Converts a glTF file: node convert_model.mjs smaller|etc1s|uastc|uastc-zstd|plain IN OUT. For tools/ci/converters, which
 // installs the packages.
 import {NodeIO} from '@gltf-transform/core';
-import {ALL_EXTENSIONS, EXTMeshoptCompression, KHRTextureBasisu} from '@gltf-transform/extensions';
+import {ALL_EXTENSIONS, KHRTextureBasisu} from '@gltf-transform/extensions';
 import {textureCompress} from '@gltf-transform/functions';
 import {createDefaultContainer, write} from 'ktx-parse';
 import {ktx2} from 'ktx2-encoder/gltf-transform';
@@ -36,12 +36,6 @@ const conversions = {
   uastc: () => ktx2({...options, isUASTC: true, needSupercompression: false}),
   'uastc-zstd': () => ktx2({...options, isUASTC: true, needSupercompression: true}),
   plain: () => plainKtx2,
-  // Streams of the values as they are: nothing is quantised or put in another order.
-  meshopt: () => (document) => {
-    document.createExtension(EXTMeshoptCompression)
-        .setRequired(true)
-        .setEncoderOptions({method: EXTMeshoptCompression.EncoderMethod.QUANTIZE});
-  },
 };
 
 await Promise.all([MeshoptDecoder.ready, MeshoptEncoder.ready]);

@@ -1,0 +1,42 @@
+"""Lavalight: a physically based path tracer for glTF 2.0.
+
+    import lavalight
+    scene = lavalight.load("model.glb", env="studio")
+    image = scene.render(size=(512, 512), spp=64)
+    image.save("model.png")
+"""
+
+from __future__ import annotations
+
+import atexit
+import json
+from typing import Any
+
+from . import _lavalight
+from ._build import Camera, Light, Material, Mesh
+from ._image import Comparison, Image, Layers
+from ._lab import Table, experiments, lab
+from ._lavalight import Error, UsageError
+from ._scene import Materials, Scene, load
+
+__all__ = ["Camera", "Comparison", "Error", "Image", "Layers", "Light", "Material", "Materials", "Mesh", "Scene", "Table",
+           "UsageError", "builtin_scenes", "devices", "experiments", "lab", "load", "presets", "__version__"]
+
+__version__ = _lavalight.__version__
+
+atexit.register(_lavalight.close)  # before the drivers end with the process
+
+
+def builtin_scenes() -> list[str]:
+    """Names that load() knows without a file."""
+    return _lavalight.builtin_scenes()
+
+
+def presets() -> dict[str, str]:
+    """What each preset sets, by its name."""
+    return dict(_lavalight.presets())
+
+
+def devices() -> list[dict[str, Any]]:
+    """The Vulkan devices of this machine; "refusals" says why one cannot render."""
+    return list(json.loads(_lavalight.devices_json()))

@@ -1,0 +1,152 @@
+// The extension module lavalight._lavalight. The package in python/lavalight is its face: keywords,
+// notebooks, types.
+#include <memory>
+
+#include <nanobind/nanobind.h>
+#include <nanobind/stl/pair.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/tuple.h>
+#include <nanobind/stl/vector.h>
+#include <nlohmann/json.hpp>
+#include <spdlog/details/null_mutex.h>
+#include <spdlog/sinks/base_sink.h>
+
+#include "base/error.h"
+#include "base/log.h"
+#include "base/version.h"
+#include "cli/options/picture_words.h"
+#include "cli/run_command_line.h"
+#include "gpu/device.h"
+#include "lab/experiment.h"
+#include "python/python_image.h"
+#include "python/python_render.h"
+#include "python/python_scene.h"
+#include "python/session_pool.h"
+#include "render/presets.h"
+#include "session/builtin.h"
+
+namespace lavalight::python {
+
+namespace nb = nanobind;
+
+namespace {
+
+// Messages go to Python's logger "lavalight", whichever thread says them. Python's lock is the sink's.
+class PythonLog : public spdlog::sinks::base_sink<spdlog::details::null_mutex> {
+  protected:
+    void sink_it_(const spdlog::details::log_msg& message) override {
+        if (!Py_IsInitialized())
+            return;
+        const nb::gil_scoped_acquire lock;
+        const char* method = message.level >= spdlog::level::err    ? "error"
+                             : message.level >= spdlog::level::warn ? "warning"
+                                                                    : "info";
+        try {
+            const nb::object logger = nb::module_::import_("logging").attr("getLogger")("lavalight");
+            logger.attr(method)("%s", std::string(message.payload.data(), message.payload.size()));
+        } catch (nb::python_error& error) {
+            error.discard_as_unraisable("lavalight's log");
+        }
+    }
+    void flush_() override {}
+};
+
+void sendLogToPython() {
+    spdlog::set_default_logger(std::make_shared<spdlog::logger>("lavalight", std::make_shared<PythonLog>()));
+    spdlog::set_level(spdlog::level::info);
+}
+
+std::string devicesJson() {
+    nlohmann::ordered_json json = nlohmann::ordered_json::array();
+    for (const gpu::DeviceDescription& device : gpu::listDevices())
+        json.push_back({{"index", device.index},
+                        {"name", device.name},
+                        {"driver", device.driver},
+                        {"type", device.type},
+                        {"refusals", device.refusals}});
+    return json.dump();
+}
+
+std::string labJson(const std::string& name, uint64_t samples, uint32_t seed) {
+    const nb::gil_scoped_release release;
+    const Experiment& experiment = findExperiment(name);
+    gpu::Device device({});
+    nlohmann::ordered_json json = nlohmann::ordered_json::array();
+    for (const Table& table : runExperiment(experiment, device, {samples, seed})) {
+        nlohmann::ordered_json one = tableJson(table);
+        one["text"] = tableText(table);
+        json.push_back(std::move(one));
+    }
+    return json.dump();
+}
+
+std::vector<std::pair<std::string, std::string>> experimentNames() {
+    std::vector<std::pair<std::string, std::string>> names;
+    for (const Experiment& experiment : experiments())
+        names.emplace_back(experiment.name, experiment.question);
+    return names;
+}
+
+std::vector<std::pair<std::string, std::string>> presetNames() {
+    std::vector<std::pair<std::string, std::string>> names;
+    for (const Preset& preset : presets())
+        names.emplace_back(preset.name, optionsOf(preset));
+    return names;
+}
+
+std::vector<std::tuple<std::string, bool, std::string, std::string>> optionTuples() {
+    std::vector<std::tuple<std::string, bool, std::string, std::string>> tuples;
+    for (const PictureOption& option : pictureOptions())
+        tuples.emplace_back(option.name, option.isFlag, option.value, option.help);
+    return tuples;
+}
+
+// The program, with its own messages in place of Python's logger.
+int runCommand(std::vector<std::string> words) {
+    const nb::gil_scoped_release release;
+    std::vector<char*> arguments;
+    for (std::string& word : words)
+        arguments.push_back(word.data());
+    return runCommandLine(static_cast<int>(arguments.size()), arguments.data());
+}
+
+void declareErrors(nb::module_& module) {
+    static PyObject* failure = PyErr_NewException("lavalight.Error", PyExc_RuntimeError, nullptr);
+    static PyObject* usage = [] {
+        const nb::object bases = nb::make_tuple(nb::handle(failure), nb::handle(PyExc_ValueError));
+        return PyErr_NewException("lavalight.UsageError", bases.ptr(), nullptr);
+    }();
+    module.attr("Error") = nb::handle(failure);
+    module.attr("UsageError") = nb::handle(usage);
+    nb::register_exception_translator([](const std::exception_ptr& thrown, void*) {
+        try {
+            std::rethrow_exception(thrown);
+        } catch (const UsageError& error) {
+            PyErr_SetString(usage, error.what());
+        } catch (const Error& error) {
+            PyErr_SetString(failure, error.what());
+        }
+    });
+}
+
+} // namespace
+
+NB_MODULE(_lavalight, module) {
+    module.attr("__version__") = std::string(kVersion);
+    sendLogToPython();
+    declareErrors(module);
+    declareImage(module);
+    declareScene(module);
+    declareRender(module);
+    module.def("picture_options", &optionTuples);
+    module.def("builtin_scenes", &builtinNames);
+    module.def("presets", &presetNames);
+    module.def("experiments", &experimentNames);
+    module.def("devices_json", &devicesJson, nb::call_guard<nb::gil_scoped_release>());
+    module.def("lab_json", &labJson, nb::arg("experiment"), nb::arg("samples"), nb::arg("seed"));
+    module.def("run_command", &runCommand, nb::arg("words"));
+    module.def(
+        "close", [] { SessionPool::ofProcess().clear(); }, nb::call_guard<nb::gil_scoped_release>());
+}
+
+} // namespace lavalight::python
