@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "gpu/direct_driver.h"
 #include "gpu/vulkan_error.h"
 
 namespace lavalight::gpu {
@@ -50,6 +51,16 @@ void requireValidationLayer(const vk::raii::Context& context) {
                             kValidationLayer));
 }
 
+void requireDirectDrivers(const vk::raii::Context& context) {
+    for (const vk::ExtensionProperties& extension : context.enumerateInstanceExtensionProperties())
+        if (std::string_view(extension.extensionName.data()) ==
+            VK_LUNARG_DIRECT_DRIVER_LOADING_EXTENSION_NAME)
+            return;
+    throw Error(fmt::format("cannot use the driver of {}: this Vulkan loader is older than 1.3.243; try the "
+                            "loader's own VK_ADD_DRIVER_FILES, which names a driver's .json file",
+                            kDriverVariable));
+}
+
 vk::raii::Instance makeInstance(const vk::raii::Context& context, bool validate,
                                 std::span<const char* const> wanted) {
     const vk::ApplicationInfo application("lavalight", 1, nullptr, 0, VK_API_VERSION_1_2);
@@ -63,6 +74,14 @@ vk::raii::Instance makeInstance(const vk::raii::Context& context, bool validate,
         extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
         info.setPEnabledLayerNames(layers);
         info.setPNext(&features);
+    }
+    VkDirectDriverLoadingListLUNARG driver{};
+    if (const VkDirectDriverLoadingListLUNARG* own = directDriver()) {
+        requireDirectDrivers(context);
+        extensions.push_back(VK_LUNARG_DIRECT_DRIVER_LOADING_EXTENSION_NAME);
+        driver = *own;
+        driver.pNext = const_cast<void*>(info.pNext); // C declares it so; it is read alone
+        info.setPNext(&driver);
     }
     info.setPEnabledExtensionNames(extensions);
     const auto create = [&] {

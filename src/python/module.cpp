@@ -17,6 +17,7 @@
 #include "cli/options/picture_words.h"
 #include "cli/run_command_line.h"
 #include "gpu/device.h"
+#include "gpu/direct_driver.h"
 #include "lab/experiment.h"
 #include "python/python_image.h"
 #include "python/python_render.h"
@@ -144,6 +145,8 @@ NB_MODULE(_lavalight, module) {
     module.def("experiments", &experimentNames);
     module.def("devices_json", &devicesJson, nb::call_guard<nb::gil_scoped_release>());
     module.def("lab_json", &labJson, nb::arg("experiment"), nb::arg("samples"), nb::arg("seed"));
+    module.def(
+        "use_driver", [](const std::string& library) { gpu::useDriver(library); }, nb::arg("library"));
     module.def("run_command", &runCommand, nb::arg("words"));
     module.def(
         "close", [] { SessionPool::ofProcess().clear(); }, nb::call_guard<nb::gil_scoped_release>());

@@ -1,5 +1,6 @@
 // `lavalight devices`: what it lists, and what a machine without Vulkan is told.
 #include <algorithm>
+#include <filesystem>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -67,6 +68,30 @@ TEST_F(Devices, WithoutADriverThereIsOneLineAndExitOne) {
         EXPECT_NE(result.err.find("Vulkan"), std::string::npos) << result.err;
     }
     EXPECT_EQ(folder_.count(), 0);
+}
+
+TEST_F(Devices, ADriverThatIsNamedServesWhereTheSystemHasNone) {
+    const std::string lavapipe = "/usr/lib/x86_64-linux-gnu/libvulkan_lvp.so";
+    if (!std::filesystem::exists(lavapipe))
+        GTEST_SKIP() << lavapipe << " is not there";
+    const EnvironmentVariable oldName("VK_ICD_FILENAMES", (folder_ / "none.json").string());
+    const EnvironmentVariable newName("VK_DRIVER_FILES", (folder_ / "none.json").string());
+    const EnvironmentVariable driver("LAVALIGHT_DRIVER", lavapipe);
+    const ProgramResult result = run({"devices"});
+    if (result.err.find("loader is older") != std::string::npos)
+        GTEST_SKIP() << "this Vulkan loader takes no driver directly";
+    EXPECT_EQ(result.exitCode, 0) << result.err;
+    EXPECT_NE(result.out.find("llvmpipe"), std::string::npos) << result.out;
+}
+
+TEST_F(Devices, WhatIsNoDriverIsRefusedByName) {
+    const std::string missing = (folder_ / "no.so").string();
+    const EnvironmentVariable driver("LAVALIGHT_DRIVER", missing);
+    const ProgramResult result = run({"devices"});
+    EXPECT_EQ(result.exitCode, 1);
+    EXPECT_NE(result.err.find("cannot load the Vulkan driver " + missing), std::string::npos) << result.err;
+    const EnvironmentVariable other("LAVALIGHT_DRIVER", "libz.so.1");
+    EXPECT_NE(run({"devices"}).err.find("does not export what drivers do"), std::string::npos);
 }
 
 } // namespace
