@@ -22,6 +22,12 @@ def test_progressive_images_get_better_and_end_with_the_bits_of_render(box):
     assert (images[-1].rgb == box.render(size=(64, 64), spp=64).rgb).all()
 
 
+def test_seconds_of_rendering_add_up(box):
+    images = list(box.progressive(size=(128, 128), spp=64, every=0.05))
+    rates = [image.report["samples"]["total"] / image.report["samples"]["perSecond"] for image in images]
+    assert rates == sorted(rates) and rates[-1] > 0.05
+
+
 def test_progressive_may_be_left_early(box):
     for image in box.progressive(size=(64, 64), spp=100000, every=0.05):
         assert image.samples.max() > 0

@@ -92,6 +92,13 @@ PythonRender::~PythonRender() {
         SessionPool::ofProcess().giveBack(std::move(session_), device_);
 }
 
+void PythonRender::takeSamples(const RenderJob::KeepGoing& keepGoing) {
+    Checkpoint none({}, {});
+    session_->render(*job_, none, false, keepGoing);
+    seconds_ += job_->report.renderSeconds;
+    job_->report.renderSeconds = seconds_;
+}
+
 std::unique_ptr<PythonImage> PythonRender::advance(double seconds, nb::object progress) {
     if (std::exchange(isBusy_, true))
         throw Error("cannot go on with this render: another thread does; start a render for each");
@@ -101,10 +108,9 @@ std::unique_ptr<PythonImage> PythonRender::advance(double seconds, nb::object pr
     {
         const nb::gil_scoped_release release;
         try {
-            Checkpoint none({}, {});
-            session_->render(*job_, none, false, [&](double fraction) { return watch.goesOn(fraction); });
-            if (job_->renderer->isDone()) // the time was up with the last wave
-                session_->render(*job_, none, false, [](double) { return true; });
+            takeSamples([&](double fraction) { return watch.goesOn(fraction); });
+            if (job_->renderer->isDone() && job_->report.stop == StopReason::interrupted)
+                takeSamples([](double) { return true; }); // the time was up with the last wave
             FinishedImage finished = session_->image(*job_);
             image = std::make_unique<PythonImage>(std::move(finished), job_->report);
         } catch (...) {

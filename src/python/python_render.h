@@ -28,9 +28,12 @@ class PythonRender {
     [[nodiscard]] std::unique_ptr<PythonImage> advance(double seconds, nanobind::object progress);
 
   private:
+    void takeSamples(const RenderJob::KeepGoing& keepGoing);
+
     gpu::DeviceConfig device_;
     std::unique_ptr<RenderSession> session_;
     std::optional<RenderJob> job_;
+    double seconds_ = 0.0; // of rendering, so far
     bool isBusy_ = false;
 };
 
