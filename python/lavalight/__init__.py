@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import atexit
 import json
+import os
 from typing import Any
 
 from . import _lavalight
@@ -24,6 +25,20 @@ __all__ = ["Camera", "Comparison", "Error", "Image", "Layers", "Light", "Materia
 
 __version__ = _lavalight.__version__
 
+
+
+def _bring_driver() -> None:
+    """Uses the driver of the package lavalight-lavapipe, unless the user has named another, or "system"."""
+    if any(os.environ.get(name) for name in ("VK_DRIVER_FILES", "VK_ICD_FILENAMES", "LAVALIGHT_DRIVER")):
+        return
+    try:
+        from lavalight_lavapipe import driver
+    except ImportError:
+        return
+    _lavalight.use_driver(str(driver()))
+
+
+_bring_driver()
 atexit.register(_lavalight.close)  # before the drivers end with the process
 
 

@@ -79,6 +79,17 @@ void load(DirectDriver& driver) {
     driver.loaded = driver.wanted;
 }
 
+void giveManifest(const std::filesystem::path& library) {
+    std::filesystem::path manifest = library;
+    manifest.replace_extension(".json");
+    if (!std::filesystem::exists(manifest))
+        throw Error(
+            fmt::format("cannot hand the driver {} to this Vulkan loader, which is older than 1.3.243: "
+                        "there is no manifest {}; try the loader's own VK_ADD_DRIVER_FILES",
+                        library.string(), manifest.string()));
+    ::setenv("VK_ADD_DRIVER_FILES", manifest.c_str(), 1);
+}
+
 } // namespace
 
 void useDriver(std::filesystem::path library) {
@@ -87,7 +98,7 @@ void useDriver(std::filesystem::path library) {
     driver.wanted = std::move(library);
 }
 
-const VkDirectDriverLoadingListLUNARG* directDriver() {
+const VkDirectDriverLoadingListLUNARG* directDriver(bool knowsDirectDrivers) {
     DirectDriver& driver = theDriver();
     const std::lock_guard lock(driver.mutex);
     const char* named = std::getenv(kDriverVariable);
@@ -97,7 +108,10 @@ const VkDirectDriverLoadingListLUNARG* directDriver() {
         return nullptr;
     if (driver.wanted != driver.loaded)
         load(driver);
-    return &driver.list;
+    if (knowsDirectDrivers)
+        return &driver.list;
+    giveManifest(driver.wanted);
+    return nullptr;
 }
 
 } // namespace lavalight::gpu

@@ -15,8 +15,11 @@ inline constexpr const char* kDriverVariable = "LAVALIGHT_DRIVER";
 // the first instance.
 void useDriver(std::filesystem::path library);
 
-// The driver's part of VkInstanceCreateInfo: VK_LUNARG_direct_driver_loading. None: no driver was named, by
-// useDriver() or kDriverVariable. Throws Error for a library that is not a driver.
-[[nodiscard]] const VkDirectDriverLoadingListLUNARG* directDriver();
+// The driver's part of VkInstanceCreateInfo, for loaders that know VK_LUNARG_direct_driver_loading
+// (`knowsDirectDrivers`). Others are given the driver's manifest, a .json file of the same name beside the
+// library, by their variable VK_ADD_DRIVER_FILES. None: no driver was named, by useDriver() or
+// kDriverVariable, or the loader has the manifest. Throws Error for a library that is not a driver, and for
+// one without a manifest where the loader needs it.
+[[nodiscard]] const VkDirectDriverLoadingListLUNARG* directDriver(bool knowsDirectDrivers);
 
 } // namespace lavalight::gpu

@@ -51,14 +51,12 @@ void requireValidationLayer(const vk::raii::Context& context) {
                             kValidationLayer));
 }
 
-void requireDirectDrivers(const vk::raii::Context& context) {
+bool knowsDirectDrivers(const vk::raii::Context& context) {
     for (const vk::ExtensionProperties& extension : context.enumerateInstanceExtensionProperties())
         if (std::string_view(extension.extensionName.data()) ==
             VK_LUNARG_DIRECT_DRIVER_LOADING_EXTENSION_NAME)
-            return;
-    throw Error(fmt::format("cannot use the driver of {}: this Vulkan loader is older than 1.3.243; try the "
-                            "loader's own VK_ADD_DRIVER_FILES, which names a driver's .json file",
-                            kDriverVariable));
+            return true;
+    return false;
 }
 
 vk::raii::Instance makeInstance(const vk::raii::Context& context, bool validate,
@@ -76,8 +74,7 @@ vk::raii::Instance makeInstance(const vk::raii::Context& context, bool validate,
         info.setPNext(&features);
     }
     VkDirectDriverLoadingListLUNARG driver{};
-    if (const VkDirectDriverLoadingListLUNARG* own = directDriver()) {
-        requireDirectDrivers(context);
+    if (const VkDirectDriverLoadingListLUNARG* own = directDriver(knowsDirectDrivers(context))) {
         extensions.push_back(VK_LUNARG_DIRECT_DRIVER_LOADING_EXTENSION_NAME);
         driver = *own;
         driver.pNext = const_cast<void*>(info.pNext); // C declares it so; it is read alone
