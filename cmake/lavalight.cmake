@@ -25,6 +25,16 @@ function(lavalight_library name)
     endif()
 endfunction()
 
+# lavalight_version(LIB): the values of src/base/version.h, asked of git at every build.
+function(lavalight_version lib)
+    set(out ${CMAKE_BINARY_DIR}/generated/version_values.cpp)
+    add_custom_target(lavalight_version BYPRODUCTS ${out}
+        COMMAND ${CMAKE_COMMAND} -DOUT=${out} -DSOURCE=${CMAKE_SOURCE_DIR} -DVERSION=${PROJECT_VERSION}
+                -DCOMMIT=${LAVALIGHT_COMMIT} -P ${CMAKE_SOURCE_DIR}/cmake/version.cmake VERBATIM)
+    target_sources(lavalight_${lib} PRIVATE ${out})
+    add_dependencies(lavalight_${lib} lavalight_version)
+endfunction()
+
 # lavalight_embed_files(LIB NAMESPACE ns ROOT dir FILES f...): each file's bytes, named by its path below ROOT, found by
 # base/embedded_file.h. Paths are absolute.
 function(lavalight_embed_files lib)

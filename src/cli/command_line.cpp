@@ -52,7 +52,7 @@ CommandLine::CommandLine()
           "Lavalight: a physically based path tracer for glTF 2.0 on any Vulkan device, lavapipe included",
           "lavalight")) {
     CLI::App& app = *app_;
-    app.set_version_flag("--version", fmt::format("lavalight {}", kVersion));
+    app.set_version_flag("--version", fmt::format("lavalight {}", versionText()));
     app.require_subcommand(0, 1);
     app.option_defaults()->always_capture_default();
     commands_.push_back(std::make_unique<RenderCommand>(app));

@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::string_view kOption = "option:";
 constexpr std::string_view kContent = "content:";
+constexpr std::string_view kCommit = "commit";
 constexpr std::string_view kNoValue = "none";
 
 // Options that choose samples or pixels, or say when to stop.
@@ -32,7 +33,7 @@ bool isOneOf(const std::array<std::string_view, N>& names, std::string_view name
 enum class Weight { none, source, decisive };
 
 Weight weightOf(std::string_view key, const std::vector<std::string>& alsoDecisive) {
-    if (key.starts_with(kContent) || key == "version" || key == "device" || key == "driver")
+    if (key.starts_with(kContent) || key == "version" || key == kCommit || key == "device" || key == "driver")
         return Weight::decisive;
     if (key == "scene" || key == "camera")
         return Weight::source;
@@ -44,6 +45,11 @@ Weight weightOf(std::string_view key, const std::vector<std::string>& alsoDecisi
     if (isOneOf(kFreeOptions, option))
         return Weight::none;
     return isOneOf(kSources, option) ? Weight::source : Weight::decisive;
+}
+
+// Builds without git, and films of before, do not say a commit; their version speaks for them.
+bool isUnknown(std::string_view key, const std::string& a, const std::string& b) {
+    return key == kCommit && (a.empty() || b.empty());
 }
 
 std::string labelOf(std::string_view key) {
@@ -74,7 +80,7 @@ std::string differences(const FilmHeader& a, const FilmHeader& b,
         const std::string ofA = valueOf(a.metadata, key);
         const std::string ofB = valueOf(b.metadata, key);
         const Weight weight = weightOf(key, alsoDecisive);
-        if (ofA == ofB || weight == Weight::none)
+        if (ofA == ofB || weight == Weight::none || isUnknown(key, ofA, ofB))
             continue;
         isDecided = isDecided || weight == Weight::decisive;
         text += fmt::format("{}{} ({} in {}, {} in {})", text.empty() ? "" : ", ", labelOf(key),

@@ -150,6 +150,8 @@ Metadata exrMetadata(const RenderReport& report) {
         {"render-seconds", fmt::format("{:.3f}", report.renderSeconds)},
         {"complete", report.stop == StopReason::interrupted ? "no, interrupted" : "yes"},
         {"bias-ledger", ledgerText(report.ledger)}};
+    if (!kCommit.empty())
+        metadata.emplace_back("commit", kCommit);
     if (report.origin != glm::dvec3(0.0))
         metadata.emplace_back("origin",
                               fmt::format("{},{},{}", report.origin.x, report.origin.y, report.origin.z));
@@ -165,6 +167,7 @@ Metadata exrMetadata(const RenderReport& report) {
 std::string reportJson(const RenderReport& report) {
     Json json;
     json["version"] = kVersion;
+    json["commit"] = kCommit;
     json["scene"] = report.scene;
     json["camera"] = report.camera;
     json["origin"] = {report.origin.x, report.origin.y, report.origin.z};

@@ -80,6 +80,22 @@ TEST(FilmMerge, WhatDiffersIsNamedWithBothValues) {
         std::string::npos);
 }
 
+// A film of another commit may come of another program of the same version. Where one does not say, the
+// version decides.
+TEST(FilmMerge, CommitsDecideWhereBothFilmsSayOne) {
+    const auto ofCommit = [](FilmFile film, const std::string& commit) {
+        setValue(film.metadata, "commit", commit);
+        return film;
+    };
+    const FilmFile first = someFilm(1, {0, 8});
+    const FilmFile second = someFilm(2, {8, 16});
+    EXPECT_EQ(refusalOf(ofCommit(first, "abc"), ofCommit(second, "abc-dirty")),
+              "cannot merge b.exr with a.exr: they differ in commit (abc in a.exr, abc-dirty in b.exr)");
+    EXPECT_EQ(refusalOf(ofCommit(first, "abc"), ofCommit(second, "abc")), "");
+    EXPECT_EQ(refusalOf(first, ofCommit(second, "abc")), "");
+    EXPECT_EQ(refusalOf(ofCommit(first, "abc"), second), "");
+}
+
 // Files may be renamed and moved; their content has its own keys.
 TEST(FilmMerge, NamesCountOnlyWhereContentDiffers) {
     FilmFile other = someFilm(2, {8, 16});

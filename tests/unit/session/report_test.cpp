@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "base/version.h"
 #include "film/film_identity.h"
 #include "render/setting_table.h"
 #include "session/report.h"
@@ -152,7 +153,8 @@ TEST(Report, IsJsonWithWhatTheRenderWasAndCost) {
     EXPECT_EQ(json.at("meanRadiance"), Json::array({0.1, 0.2, 0.3}));
     EXPECT_EQ(json.at("ledger"), Json::array({{{"cause", "cut-paths"}, {"detail", "4 paths"}}}));
     EXPECT_EQ(json.at("warnings"), Json::array({"first", "second"}));
-    EXPECT_TRUE(json.contains("version"));
+    EXPECT_EQ(json.at("version"), kVersion);
+    EXPECT_EQ(json.at("commit"), kCommit);
     EXPECT_TRUE(json.contains("camera"));
     EXPECT_TRUE(json.contains("waveSize"));
 }
@@ -182,7 +184,8 @@ TEST(ExrHeader, SaysHowTheImageCameToBe) {
     EXPECT_EQ(header.at("complete"), "yes");
     EXPECT_EQ(header.at("bias-ledger"), "cut-paths: 4 paths");
     EXPECT_EQ(header.count("camera"), 1u);
-    EXPECT_EQ(header.count("version"), 1u);
+    EXPECT_EQ(header.at("version"), kVersion);
+    EXPECT_EQ(header.count("commit"), kCommit.empty() ? 0u : 1u);
     for (const auto& [name, value] : describe(exampleReport().settings))
         EXPECT_EQ(header.at("option:" + name), value);
 }
