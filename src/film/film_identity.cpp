@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::string_view kOption = "option:";
 constexpr std::string_view kContent = "content:";
-constexpr std::string_view kCommit = "commit";
+constexpr std::string_view kCommitKey = "commit";
 constexpr std::string_view kNoValue = "none";
 
 // Options that choose samples or pixels, or say when to stop.
@@ -33,7 +33,8 @@ bool isOneOf(const std::array<std::string_view, N>& names, std::string_view name
 enum class Weight { none, source, decisive };
 
 Weight weightOf(std::string_view key, const std::vector<std::string>& alsoDecisive) {
-    if (key.starts_with(kContent) || key == "version" || key == kCommit || key == "device" || key == "driver")
+    if (key.starts_with(kContent) || key == "version" || key == kCommitKey || key == "device" ||
+        key == "driver")
         return Weight::decisive;
     if (key == "scene" || key == "camera")
         return Weight::source;
@@ -49,7 +50,7 @@ Weight weightOf(std::string_view key, const std::vector<std::string>& alsoDecisi
 
 // Builds without git, and films of before, do not say a commit; their version speaks for them.
 bool isUnknown(std::string_view key, const std::string& a, const std::string& b) {
-    return key == kCommit && (a.empty() || b.empty());
+    return key == kCommitKey && (a.empty() || b.empty());
 }
 
 std::string labelOf(std::string_view key) {

@@ -1,0 +1,54 @@
+# Roots of Debian by debootstrap, for scripts that source this file after setting `source` and `say`. Only root may make them.
+# Kept in /var/cache/lavalight, and made anew where one is not there. Exits with 77 where there are no means.
+
+# need_root WHAT: only root may do it; the script then starts anew in a namespace whose mounts go with it, however it ends.
+need_root() {
+    if [ "$(id -u)" -ne 0 ]; then
+        say "cannot make $1: only root may; try sudo $0"
+        exit 77
+    fi
+}
+
+# make_root SUITE FOLDER: a minimal Debian with certificates, whole or absent.
+make_root() {
+    local suite="$1" root="$2"
+    [ ! -e "$root/etc/debian_version" ] || return 0
+    if ! command -v debootstrap >/dev/null && ! "$source/tools/setup" debootstrap; then
+        say "cannot make a root of $suite: debootstrap is not installed"
+        exit 77
+    fi
+    say "installing $suite into $root"
+    rm -rf "$root.part"
+    mkdir -p "$root.part"
+    debootstrap --variant=minbase --include=ca-certificates "$suite" "$root.part" \
+        "${LAVALIGHT_MIRROR:-http://deb.debian.org/debian}" >&2
+    mv "$root.part" "$root"
+}
+
+# share_network FOLDER: the names of hosts, proxies and certificates are this machine's.
+share_network() {
+    local root="$1" file
+    for file in /etc/resolv.conf /etc/hosts; do
+        [ ! -e "$file" ] || cp --dereference "$file" "$root$file"
+    done
+    if [ -d /usr/local/share/ca-certificates ]; then
+        cp -r /usr/local/share/ca-certificates/. "$root/usr/local/share/ca-certificates/"
+        chroot "$root" update-ca-certificates >/dev/null 2>&1
+    fi
+    { grep -slE '^Acquire::' /etc/apt/apt.conf.d/* || true; } | while read -r file; do cp "$file" "$root/etc/apt/apt.conf.d/"; done
+}
+
+# mount_system FOLDER: what programs expect of a running system.
+mount_system() {
+    mkdir -p "$1/proc" "$1/dev" "$1/sys"
+    mount -t proc proc "$1/proc"
+    mount --rbind /dev "$1/dev"
+    mount --rbind /sys "$1/sys"
+    mount -t tmpfs tmpfs "$1/tmp"
+}
+
+# The environment of programs inside. GLFW 3.4 asks for Wayland first, whose library complains where there is no such folder.
+inside_environment=(PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LANG=C.UTF-8 XDG_RUNTIME_DIR=/tmp)
+for name in http_proxy https_proxy no_proxy HTTP_PROXY HTTPS_PROXY NO_PROXY; do
+    [ -z "${!name:-}" ] || inside_environment+=("$name=${!name}")
+done
