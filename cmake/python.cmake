@@ -26,5 +26,5 @@ foreach(file ${package})
 endforeach()
 add_custom_target(python_package ALL DEPENDS _lavalight ${copies})
 
-install(TARGETS _lavalight LIBRARY DESTINATION lavalight COMPONENT python)
-install(FILES ${package} DESTINATION lavalight COMPONENT python)
+install(TARGETS _lavalight LIBRARY DESTINATION lavalight COMPONENT python EXCLUDE_FROM_ALL)
+install(FILES ${package} DESTINATION lavalight COMPONENT python EXCLUDE_FROM_ALL)

@@ -9,6 +9,7 @@
 from __future__ import annotations
 
 import atexit
+import importlib
 import json
 import os
 from typing import Any
@@ -32,10 +33,10 @@ def _bring_driver() -> None:
     if any(os.environ.get(name) for name in ("VK_DRIVER_FILES", "VK_ICD_FILENAMES", "LAVALIGHT_DRIVER")):
         return
     try:
-        from lavalight_lavapipe import driver
+        package = importlib.import_module("lavalight_lavapipe")
     except ImportError:
         return
-    _lavalight.use_driver(str(driver()))
+    _lavalight.use_driver(str(package.driver()))
 
 
 _bring_driver()
