@@ -18,18 +18,6 @@ constexpr uint32_t kWaveSize = 1u << 16;
 
 } // namespace
 
-ViewCommand::ViewCommand(CLI::App& app)
-    : Command(app, "view", "Show a scene in a window while it is rendered"), options_(parser()),
-      sceneOptions_(parser()), shaders_(parser()), tone_(parser()), background_(parser()),
-      denoise_(parser(),
-               {"Show the picture denoised, by Intel Open Image Denoise; N goes back. Without a word: fast",
-                DenoiseQuality::fast}) {
-    shaders_.declareWatch(parser());
-    parser().add_flag("--no-watch", isNotWatching_,
-                      "Do not watch shaders, which is done where --shaders or ./shaders is there");
-    parser().add_option("input", scene_, "Built-in scene, or .gltf or .glb file")->type_name("SCENE");
-}
-
 // Without --spp, until the window is closed.
 RenderPlan ViewCommand::plan() {
     RenderPlan plan = options_.plan(scene_);
