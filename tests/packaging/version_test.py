@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """cmake/version.cmake tells the commit of a checkout, whether it was changed, and nothing where git is not about it."""
 import re
+import shutil
 import subprocess
 import tempfile
 import unittest
@@ -9,6 +10,7 @@ from pathlib import Path
 SCRIPT = Path(__file__).resolve().parent.parent.parent / "cmake/version.cmake"
 
 
+@unittest.skipUnless(shutil.which("git"), "git is not installed")
 class Version(unittest.TestCase):
     def setUp(self):
         work = tempfile.TemporaryDirectory()
