@@ -10,8 +10,20 @@ set(LAVALIGHT_SOURCES ${lavalight_data}/lavalight/sources CACHE PATH "Sources of
 option(LAVALIGHT_BASISU "Read KTX2 pictures of Basis Universal (ETC1S, UASTC)" ON)
 
 # basisu: the transcoder of Basis Universal. src/image undoes Zstandard before it.
-set(basisu ${LAVALIGHT_SOURCES}/basisu-2.50/transcoder)
-if(LAVALIGHT_BASISU AND EXISTS ${basisu}/basisu_transcoder.cpp)
+set(fetched ${LAVALIGHT_SOURCES}/basisu-2.50/transcoder)
+if(LAVALIGHT_BASISU AND EXISTS ${fetched}/basisu_transcoder.cpp)
+    # A Huffman table of one long code has a tree without that code's sibling, which damaged streams read behind the tree's end.
+    set(basisu ${CMAKE_BINARY_DIR}/sources/basisu)
+    file(GLOB files ${fetched}/*)
+    file(COPY ${files} DESTINATION ${basisu})
+    file(READ ${fetched}/basisu_transcoder_internal.h header)
+    set(unchecked "sym = ct.m_tree[~sym + ((m_bit_buf >> code_len++) & 1)]; // ~sym = -sym - 1")
+    set(checked "const uint32_t at = ~sym + ((m_bit_buf >> code_len++) & 1); sym = at < ct.m_tree.size() ? ct.m_tree[at] : 0;")
+    string(REPLACE "${unchecked}" "${checked}" mended "${header}")
+    if(mended STREQUAL header)
+        message(FATAL_ERROR "cannot mend ${fetched}/basisu_transcoder_internal.h: it is not the one that is known; run tools/setup")
+    endif()
+    file(CONFIGURE OUTPUT ${basisu}/basisu_transcoder_internal.h CONTENT "${mended}" @ONLY)
     add_library(basisu STATIC ${basisu}/basisu_transcoder.cpp)
     target_include_directories(basisu SYSTEM PUBLIC ${basisu})
     target_compile_definitions(basisu PUBLIC BASISD_SUPPORT_KTX2_ZSTD=0 PRIVATE NDEBUG)

@@ -219,6 +219,12 @@ TEST(Ktx2, DamagedStreamsOfAnEncoderAreRefusedOrShown) {
     }
 }
 
+// AddressSanitizer sees what the transcoder of its authors reads there.
+TEST(Ktx2, ALoneLongCodeOfAHuffmanTableHasNoSiblingBehindTheTree) {
+    const std::string bytes = readFile(LAVALIGHT_SOURCE_DIR "/tests/field/etc1s_long_code.ktx2");
+    EXPECT_THROW((void)decodePicture(bytes), Error);
+}
+
 TEST(Ktx2, WithoutTheTranscoderTheMessageSaysHowToGetIt) {
     if (hasBasisUniversal())
         GTEST_SKIP() << "built with Basis Universal";
