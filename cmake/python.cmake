@@ -13,7 +13,7 @@ file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/python/*.cpp ${CMAKE
 nanobind_add_module(_lavalight STABLE_ABI NB_STATIC NB_SUPPRESS_WARNINGS ${sources})
 target_link_libraries(_lavalight PRIVATE lavalight_cli)
 # Symbols of the libraries stay inside: other modules of the process have their own LLVM, fmt or Embree.
-target_link_options(_lavalight PRIVATE -Wl,--exclude-libs,ALL)
+target_link_options(_lavalight PRIVATE -Wl,--exclude-libs,ALL -Wl,--as-needed) # the Vulkan loader is opened when it is needed
 set_target_properties(_lavalight PROPERTIES LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/python/lavalight)
 
 file(GLOB package CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/python/lavalight/*.py ${CMAKE_SOURCE_DIR}/python/lavalight/*.pyi

@@ -9,6 +9,7 @@
 from __future__ import annotations
 
 import atexit
+import ctypes
 import importlib
 import json
 import os
@@ -29,13 +30,17 @@ __version__ = _lavalight.__version__
 
 
 def _bring_driver() -> None:
-    """Uses the driver of the package lavalight-lavapipe, unless the user has named another, or "system"."""
+    """Uses the driver of the package lavalight-lavapipe, unless the user has named another."""
     if any(os.environ.get(name) for name in ("VK_DRIVER_FILES", "VK_ICD_FILENAMES", "LAVALIGHT_DRIVER")):
         return
     try:
         package = importlib.import_module("lavalight_lavapipe")
     except ImportError:
         return
+    try:
+        ctypes.CDLL("libvulkan.so.1")  # the system's loader, where it has one
+    except OSError:
+        ctypes.CDLL(str(package.loader()))  # found by its name from now on
     _lavalight.use_driver(str(package.driver()))
 
 
