@@ -85,10 +85,10 @@ TEST(GltfAnimationPointer, CamerasAndLightsAreAnimated) {
 TEST(GltfAnimationPointer, NodesMoveTurnAndVanish) {
     const Scene moved = halfWay("/nodes/0/translation", {0, 0, 0, 4, 2, 0}, "VEC3");
     EXPECT_EQ(moved.meshes.at(0).positions.at(0), glm::vec3(2, 1, 0));
-    const float half = std::sqrt(0.5f); // a quarter turn about z, half of which is 45 degrees
-    const Scene turned = halfWay("/nodes/0/rotation", {0, 0, 0, 1, 0, 0, half, half}, "VEC4");
-    EXPECT_NEAR(turned.meshes.at(0).positions.at(1).x, half, 1e-6f);
-    EXPECT_NEAR(turned.meshes.at(0).positions.at(1).y, half, 1e-6f);
+    const float half = std::sqrt(0.5f); // a quarter turn about z, a quarter of which is 22.5 degrees
+    const Scene turned = at(animated("/nodes/0/rotation", {0, 0, 0, 1, 0, 0, half, half}, "VEC4"), 0.5);
+    EXPECT_NEAR(turned.meshes.at(0).positions.at(1).x, std::cos(0.39269908f), 1e-6f);
+    EXPECT_NEAR(turned.meshes.at(0).positions.at(1).y, std::sin(0.39269908f), 1e-6f);
 
     GltfBuilder builder =
         animated("/nodes/0/extensions/KHR_node_visibility/visible", {1, 0}, "SCALAR", "STEP");
@@ -155,6 +155,12 @@ TEST(GltfAnimationPointer, ArraysAndTheirElementsMayBothBeAnimated) {
     single.json["animations"][0]["samplers"].push_back(sampler);
     single.json["animations"][0]["channels"].push_back(second);
     EXPECT_EQ(at(single, 1.0).meshes.at(0).positions.at(0), glm::vec3(0, 7, 1));
+}
+
+TEST(GltfAnimationPointer, ElementsThatAnArrayDoesNotHaveAreNotAdded) {
+    GltfBuilder builder = animated("/meshes/0/weights/2", {1, 1}, "SCALAR");
+    builder.json["meshes"][0]["weights"] = {0.0, 0.0};
+    EXPECT_EQ(warningsWith(at(builder, 1.0), "were left as they are: /meshes/0/weights/2"), 1);
 }
 
 TEST(GltfAnimationPointer, KeysOfAnotherTypeOrWithoutEndAreRefused) {

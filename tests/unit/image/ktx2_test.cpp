@@ -119,6 +119,7 @@ TEST(Ktx2, FilesThatSayMoreThanTheyHoldAreRefused) {
         EXPECT_NE(file.error().find("it is damaged"), std::string::npos) << file.error();
     };
     expectDamaged({.width = 3});
+    expectDamaged({.width = 1});
     expectDamaged({.levelShift = 1});
     expectDamaged({.levelShift = static_cast<uint64_t>(-300)});
     expectDamaged({.keys = number(15, 4) + std::string("KTXswizzle\0rgbx", 15) + number(0, 1)});
@@ -131,6 +132,13 @@ TEST(Ktx2, DescriptorsBeyondTheFileAreRefused) {
     std::string file = Ktx2{}.bytes();
     for (size_t at = 48; at < 52; ++at)
         file[at] = '\xFF';
+    EXPECT_THROW((void)decodePicture(file), Error);
+}
+
+// Eight bytes from four before 2^64 end at four.
+TEST(Ktx2, PlacesWhoseEndsWrapRoundAreRefused) {
+    std::string file = Ktx2{}.bytes();
+    file.replace(80, 8, number(static_cast<uint64_t>(-4), 8));
     EXPECT_THROW((void)decodePicture(file), Error);
 }
 
