@@ -44,7 +44,14 @@ def _bring_driver() -> None:
     _lavalight.use_driver(str(package.driver()))
 
 
+def _after_fork() -> None:
+    """The driver's threads do not come along into a forked child."""
+    _lavalight.forbid_renders("cannot render in a forked process: the driver's threads stayed in the parent; "
+                              "try multiprocessing's method \"spawn\"")
+
+
 _bring_driver()
+os.register_at_fork(after_in_child=_after_fork)
 atexit.register(_lavalight.close)  # before the drivers end with the process
 
 

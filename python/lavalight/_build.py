@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import os
 import struct
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -49,7 +50,7 @@ class Material:
     double_sided: bool = False
     transmission: float = 0.0
     ior: float = 1.5
-    texture: str | bytes | None = None
+    texture: str | os.PathLike[str] | bytes | None = None
     name: str = ""
     extensions: dict[str, Any] = field(default_factory=dict)
 
@@ -113,7 +114,8 @@ class _Writer:
             used.append(extension)
 
     def bytes(self) -> bytes:
-        if self.binary:
+        if "bufferViews" in self.json:
+            self.binary += b"\0" * (4 if not self.binary else 0)
             self.json["buffers"] = [{"byteLength": len(self.binary)}]
         text = json.dumps(self.json, separators=(",", ":"), allow_nan=False).encode()
         text += b" " * (-len(text) % 4)
@@ -122,6 +124,25 @@ class _Writer:
         if binary:
             chunks += struct.pack("<I", len(binary)) + b"BIN\0" + binary
         return b"glTF" + struct.pack("<II", 2, 12 + len(chunks)) + chunks
+
+
+def _number(what: str, value: object) -> float:
+    number = float(value)  # type: ignore[arg-type]  # whatever NumPy has for a number
+    if not math.isfinite(number):
+        raise ValueError(f"{what}: {number} is not finite")
+    return number
+
+
+def _numbers(what: str, values: Vector) -> list[float]:
+    return [_number(what, value) for value in values]
+
+
+def _matrix(what: str, values: npt.ArrayLike) -> list[float]:
+    """A 4x4 matrix by columns."""
+    matrix = np.asarray(values, dtype=float)
+    if matrix.shape != (4, 4):
+        raise ValueError(f"{what}: has the shape {matrix.shape}, and (4, 4) is wanted")
+    return _numbers(what, [float(value) for value in matrix.T.ravel()])
 
 
 def _unit(vector: npt.NDArray[np.float64], what: str) -> npt.NDArray[np.float64]:
@@ -140,7 +161,7 @@ def _facing(position: Vector, forward: npt.NDArray[np.float64], up: Vector) -> l
     right = _unit(side, "up")
     matrix = np.eye(4)
     matrix[:3, 0], matrix[:3, 1], matrix[:3, 2], matrix[:3, 3] = right, np.cross(back, right), back, position
-    return [float(value) for value in matrix.T.ravel()]
+    return _matrix("look_from or position", matrix)
 
 
 def _add_mesh(writer: _Writer, mesh: Mesh, index: int, materials: int) -> None:
@@ -157,6 +178,8 @@ def _add_mesh(writer: _Writer, mesh: Mesh, index: int, materials: int) -> None:
     primitive: dict[str, Any] = {"attributes": attributes}
     if mesh.triangles is not None:
         triangles = np.asarray(mesh.triangles)
+        if triangles.size and not np.issubdtype(triangles.dtype, np.integer):
+            raise ValueError(f"{what}, triangles: indices are whole numbers, and these are {triangles.dtype}")
         if triangles.ndim != 2 or triangles.shape[1] != 3:
             raise ValueError(f"{what}, triangles: has the shape {triangles.shape}, and (m, 3) is wanted")
         if triangles.size and (triangles.min() < 0 or triangles.max() >= count):
@@ -165,45 +188,48 @@ def _add_mesh(writer: _Writer, mesh: Mesh, index: int, materials: int) -> None:
     if mesh.material is not None:
         if not 0 <= mesh.material < materials:
             raise ValueError(f"{what}: has material {mesh.material}, and the scene has {materials}")
-        primitive["material"] = mesh.material
+        primitive["material"] = int(mesh.material)
     node: dict[str, Any] = {"mesh": writer.add("meshes", {"name": mesh.name, "primitives": [primitive]}), "name": mesh.name}
     if mesh.transform is not None:
-        matrix = np.asarray(mesh.transform, dtype=float)
-        if matrix.shape != (4, 4):
-            raise ValueError(f"{what}, transform: has the shape {matrix.shape}, and (4, 4) is wanted")
-        node["matrix"] = [float(value) for value in matrix.T.ravel()]
+        node["matrix"] = _matrix(f"{what}, transform", mesh.transform)
     writer.node(node)
 
 
-def _add_material(writer: _Writer, material: Material) -> None:
-    rough: dict[str, Any] = {"baseColorFactor": [*map(float, material.base_color), material.alpha],
-                             "metallicFactor": material.metallic, "roughnessFactor": material.roughness}
+def _add_material(writer: _Writer, material: Material, index: int) -> None:
+    what = f"material {index}, "
+    alpha = _number(what + "alpha", material.alpha)
+    emission = _numbers(what + "emission", material.emission)
+    rough: dict[str, Any] = {"baseColorFactor": [*_numbers(what + "base_color", material.base_color), alpha],
+                             "metallicFactor": _number(what + "metallic", material.metallic),
+                             "roughnessFactor": _number(what + "roughness", material.roughness)}
     if material.texture is not None:
         data = material.texture
-        if isinstance(data, str):
+        if not isinstance(data, bytes):
             with open(data, "rb") as file:
                 data = file.read()
         image = writer.add("images", {"bufferView": writer.view(data)})
         rough["baseColorTexture"] = {"index": writer.add("textures", {"source": image})}
     extensions = dict(material.extensions)
     if material.transmission:
-        extensions.setdefault("KHR_materials_transmission", {"transmissionFactor": material.transmission})
+        extensions.setdefault("KHR_materials_transmission",
+                              {"transmissionFactor": _number(what + "transmission", material.transmission)})
     if material.ior != 1.5:
-        extensions.setdefault("KHR_materials_ior", {"ior": material.ior})
-    strength = max([1.0, *map(float, material.emission)])  # glTF's factor ends at 1
+        extensions.setdefault("KHR_materials_ior", {"ior": _number(what + "ior", material.ior)})
+    strength = max([1.0, *emission])  # glTF's factor ends at 1
     if strength > 1.0:
         extensions["KHR_materials_emissive_strength"] = {"emissiveStrength": strength}
     for extension in extensions:
         writer.use(extension)
-    writer.add("materials", {"name": material.name, "pbrMetallicRoughness": rough, "doubleSided": material.double_sided,
-                             "emissiveFactor": [float(value) / strength for value in material.emission],
-                             "alphaMode": "OPAQUE" if material.alpha == 1.0 else "BLEND", "extensions": extensions})
+    writer.add("materials", {"name": material.name, "pbrMetallicRoughness": rough, "doubleSided": bool(material.double_sided),
+                             "emissiveFactor": [value / strength for value in emission],
+                             "alphaMode": "OPAQUE" if alpha == 1.0 else "BLEND", "extensions": extensions})
 
 
 def _add_light(writer: _Writer, light: Light) -> None:
     extension = "KHR_lights_punctual"
     writer.use(extension)
-    value: dict[str, Any] = {"type": light.kind, "color": [float(c) for c in light.color], "intensity": float(light.intensity)}
+    value: dict[str, Any] = {"type": light.kind, "color": _numbers("a light's color", light.color),
+                             "intensity": _number("a light's intensity", light.intensity)}
     if light.kind == "spot":
         value["spot"] = {"outerConeAngle": math.radians(light.cone)}
     elif light.kind not in ("point", "directional"):
@@ -217,8 +243,8 @@ def _add_light(writer: _Writer, light: Light) -> None:
 def build_glb(meshes: Sequence[Mesh], materials: Sequence[Material], camera: Camera | None, lights: Sequence[Light]) -> bytes:
     """The bytes of a .glb file. Raises ValueError for arrays of another shape and indices of what is not there."""
     writer = _Writer()
-    for material in materials:
-        _add_material(writer, material)
+    for index, material in enumerate(materials):
+        _add_material(writer, material, index)
     for index, mesh in enumerate(meshes):
         _add_mesh(writer, mesh, index, len(materials))
     if camera is not None:

@@ -88,7 +88,7 @@ class Image:
 
     @property
     def variance(self) -> Floats | None:
-        """Variance of each pixel's mean; None where fewer than two samples were taken."""
+        """Variance of each pixel's mean; 0 where a pixel has fewer than two samples."""
         return self._image.layer_variance("color")
 
     @property

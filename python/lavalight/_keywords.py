@@ -8,6 +8,8 @@ import numbers
 import os
 from collections.abc import Iterable, Mapping
 
+import numpy as np
+
 from . import _lavalight
 
 # What a scene is loaded with; everything else belongs to a render.
@@ -35,6 +37,11 @@ def _number(value: object) -> str:
     return repr(float(value)) if isinstance(value, numbers.Real) else str(value)
 
 
+def _plain(value: object) -> object:
+    """Numbers and truths of NumPy as Python's."""
+    return value.item() if isinstance(value, np.generic) or (isinstance(value, np.ndarray) and value.ndim == 0) else value
+
+
 def _text(name: str, value: object) -> str:
     if isinstance(value, bool):
         return "on" if value else "off"
@@ -56,11 +63,12 @@ def words(keywords: Mapping[str, object], of_scene: bool, function: str) -> list
     """What a shell would pass. Raises TypeError for a keyword that `function` does not have."""
     known = options()
     result: list[str] = []
-    for keyword, value in keywords.items():
+    for keyword, given in keywords.items():
+        value = _plain(given)
         name = RENAMED.get(keyword, keyword.replace("_", "-"))
         if name not in known or (name in SCENE_OPTIONS) != of_scene or keyword in RENAMED.values():
             raise TypeError(_unknown(keyword, name, of_scene, function))
-        if value is None:
+        if value is None or (name == "aov" and not value):
             continue
         is_flag = known[name][0]
         if name == "denoise" and isinstance(value, bool):

@@ -143,6 +143,13 @@ def test_noise_is_told_from_difference(box):
     assert not image.compare(box.render(size=(32, 32), spp=32, sampler="independent", max_bounces=1), significance=1e-4)
 
 
+def test_images_of_one_sample_have_no_noise_to_tell_from(box):
+    one = box.render(size=(16, 16), spp=1)
+    with pytest.raises(lavalight.Error, match="no Z-test"):
+        one.compare(box.render(size=(16, 16), spp=1, max_bounces=1), significance=1e-4)
+    assert not one.compare(box.render(size=(16, 16), spp=1, max_bounces=1))  # by relMSE
+
+
 def test_images_of_other_sizes_are_not_compared(box):
     with pytest.raises(lavalight.Error, match="size"):
         box.render(**SMALL).compare(box.render(size=(8, 8), spp=1), relmse=1.0)

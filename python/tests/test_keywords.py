@@ -97,6 +97,21 @@ def test_none_is_the_default(box):
     assert (box.render(**SMALL, mis=None).rgb == box.render(**SMALL).rgb).all()
 
 
+@pytest.mark.parametrize("keywords", [{"filter_radius": 1e30, "filter": "tent"}, {"look_from": (1e19, 0, 0), "look_at": (0, 0, 0)},
+                                      {"aperture": 1e19}, {"aperture": 0.1, "focus": 1e30}])
+def test_rays_from_beyond_all_bounds_end_no_program(box, keywords):
+    assert box.render(**SMALL, **keywords).complete
+
+
+def test_values_of_numpy_are_pythons(box):
+    image = box.render(size=np.array([16, 16]), spp=np.array(2), nee=np.False_, seed=np.uint8(3), clamp_indirect=np.float32(2))
+    assert (image.rgb == box.render(size=(16, 16), spp=2, nee=False, seed=3, clamp_indirect=2.0).rgb).all()
+
+
+def test_no_layers_are_no_layers(box):
+    assert list(box.render(**SMALL, layers=[]).layers) == ["color"]
+
+
 def test_numpy_numbers_and_paths_are_values(box, tmp_path):
     assert box.render(size=np.array([16, 12]), spp=np.int64(2)).shape == (12, 16)
     with pytest.raises(lavalight.Error, match="cannot"):

@@ -157,6 +157,21 @@ def test_memory_does_not_grow_over_many_renders(box):
     assert memory() - before < 8e6 + 20e3 * count
 
 
+def test_a_forked_child_of_a_process_that_rendered_is_told_why_it_cannot():
+    code = ("import lavalight, os\nscene = lavalight.load('cornell-box')\nscene.render(size=(8, 8), spp=1)\nchild = os.fork()\n"
+            "if child == 0:\n    try:\n        scene.render(size=(8, 8), spp=1)\n    except lavalight.Error as error:\n"
+            "        print(error, flush=True)\n    os._exit(0)\nos.waitpid(child, 0)\nprint(scene.render(size=(8, 8), spp=1).complete)")
+    done = run(code)
+    assert "spawn" in done.stdout and done.stdout.endswith("True\n"), done.stdout + done.stderr
+
+
+def test_the_interpreter_ends_while_a_daemon_thread_renders():
+    code = ("import lavalight, threading, time\nscene = lavalight.load('cornell-box')\n"
+            "threading.Thread(target=lambda: scene.render(size=(256, 256), spp=4000), daemon=True).start()\ntime.sleep(1.0)")
+    for _ in range(3):
+        run(code)  # which raises where it takes longer than the limit
+
+
 def test_a_driver_that_is_not_there_is_an_error():
     environment = {**os.environ, "VK_ICD_FILENAMES": "/nowhere.json", "VK_DRIVER_FILES": "/nowhere.json"}
     code = "import lavalight\ntry:\n    lavalight.load('cornell-box').render(spp=1)\nexcept lavalight.Error as error:\n    print('error:', error)"

@@ -98,11 +98,35 @@ def test_textures_are_pictures_or_their_bytes(box, tmp_path):
     ({"positions": SQUARE, "uvs": np.zeros((4, 3))}, r"\(n, 2\) is wanted"),
     ({"positions": SQUARE, "colors": np.zeros((4, 2))}, r"\(n, 3\) or \(n, 4\) is wanted"),
     ({"positions": SQUARE, "material": 3}, "has material 3"),
+    ({"positions": SQUARE, "triangles": [[0.9, 1.2, 2.7]]}, "whole numbers"),
+    ({"positions": SQUARE, "transform": np.full((4, 4), np.nan)}, "mesh 0, transform: nan is not finite"),
     ({"positions": SQUARE, "transform": np.eye(3)}, r"\(4, 4\) is wanted"),
 ])
 def test_arrays_of_wrong_shapes_are_refused(mesh, message):
     with pytest.raises(ValueError, match=message):
         lavalight.Scene([lavalight.Mesh(**mesh)])
+
+
+@pytest.mark.parametrize("material, message", [({"metallic": float("nan")}, "material 0, metallic"),
+                                               ({"emission": (float("inf"), 0, 0)}, "material 0, emission"),
+                                               ({"base_color": (0, float("nan"), 0)}, "material 0, base_color")])
+def test_factors_that_are_not_finite_are_refused_by_name(material, message):
+    with pytest.raises(ValueError, match=message):
+        lavalight.Scene([lavalight.Mesh(SQUARE, CORNERS, material=0)], [lavalight.Material(**material)])
+
+
+def test_scalars_of_numpy_are_numbers():
+    material = lavalight.Material(metallic=np.float32(0.5), alpha=np.float32(0.5), double_sided=np.bool_(True), roughness=np.float64(1))
+    scene = lavalight.Scene([lavalight.Mesh(np.array(SQUARE, dtype=np.int64), np.array(CORNERS, dtype=np.uint8), material=np.int64(0))],
+                            [material])
+    assert scene.materials[0].metallic == 0.5
+
+
+def test_meshes_of_nothing_show_nothing():
+    for mesh in (lavalight.Mesh(np.zeros((0, 3))), lavalight.Mesh(SQUARE, np.zeros((0, 3), dtype=int))):
+        scene = lavalight.Scene([mesh, lavalight.Mesh(SQUARE, CORNERS)])
+        assert scene.triangles == 2
+        assert np.isfinite(scene.render(**SMALL).rgb).all()
 
 
 def test_cameras_and_lights_without_direction_are_refused():

@@ -119,8 +119,9 @@ unsigned threadLimit() {
 
 void forEachInParallel(std::size_t count, const std::function<void(std::size_t)>& work) {
     if (count > 1 && limit != 1) {
-        static LoopThreads threads;
-        if (threads.run(count, work))
+        // Never destroyed: at the end of a process that embeds this, other threads may still be in a loop.
+        static auto* threads = new LoopThreads;
+        if (threads->run(count, work))
             return;
     }
     for (std::size_t i = 0; i < count; ++i)

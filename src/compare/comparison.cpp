@@ -58,6 +58,8 @@ Estimate estimateOf(const Layer& layer, const std::vector<uint32_t>& sampleCount
 std::optional<ZTests> testNoise(const Estimate& image, const Estimate& reference) {
     if (image.variance == nullptr && reference.variance == nullptr)
         return std::nullopt;
+    if (!hasTestablePixel(image, reference))
+        return std::nullopt;
     const uint32_t whole = std::max(image.mean->width, image.mean->height);
     const auto test = [&](uint32_t tileSize) { return welchTest(image, reference, tileSize); };
     const char* of = reference.variance == nullptr ? "image"
@@ -122,10 +124,11 @@ Verdict zVerdict(const ZTests& tests, double significance, const std::vector<std
                         test.worstAbsZ)};
 }
 
-Criteria completed(Criteria criteria, const ComparedImage& image, const ComparedImage& reference) {
+Criteria completed(Criteria criteria, const ComparedImage& image, const ComparedImage& reference,
+                   bool canBeTested) {
     if (criteria.relMse || criteria.flip || criteria.significance)
         return criteria;
-    if (image.content.hasVariance() && reference.content.hasVariance())
+    if (canBeTested && image.content.hasVariance() && reference.content.hasVariance())
         criteria.significance = kDefaultSignificance;
     else
         criteria.relMse = kDefaultRelMse;
@@ -137,9 +140,9 @@ std::vector<Verdict> judge(const Comparison& c, const Criteria& criteria, const 
     std::vector<Verdict> verdicts{finiteVerdict(c, image)};
     if (criteria.significance) {
         if (!c.zTests)
-            throw Error(
-                "no Z-test: neither image has variances; compare EXR files of lavalight render, or give "
-                "--threshold or --flip-threshold");
+            throw Error("no Z-test: neither image has variances, or no pixel has two samples in both; "
+                        "compare EXR files "
+                        "of lavalight render, or give --threshold or --flip-threshold");
         verdicts.push_back(zVerdict(*c.zTests, *criteria.significance, colorLayer({}, {}).channels));
     }
     if (criteria.relMse)
@@ -251,7 +254,7 @@ Comparison compare(const ComparedImage& image, const ComparedImage& reference, c
     result.flip = result.isHdrFlip ? flipOfRadiance(a, b) : flip(a, b);
     result.zTests = testNoise(estimateOf(image.content.layers.front(), image.content.sampleCounts),
                               estimateOf(reference.content.layers.front(), reference.content.sampleCounts));
-    const Criteria asked = completed(criteria, image, reference);
+    const Criteria asked = completed(criteria, image, reference, result.zTests.has_value());
     result.verdicts = judge(result, asked, a, b);
     std::deque<Layer> opaques;
     for (const LayerPair& pair : pairsOf(image.content, reference.content, opaques)) {

@@ -27,8 +27,8 @@ struct ComparedImage {
 [[nodiscard]] ComparedImage readCompared(const std::string& path);
 
 // What is asked of the image to be equal to the reference. With none given: the Z-test where both have
-// variances, else relMSE of kDefaultRelMse. Layers besides the colour are asked for the same, but for FLIP;
-// those without variances for relMSE in place of the Z-test.
+// variances and a pixel of two samples, else relMSE of kDefaultRelMse. Layers besides the colour are asked
+// for the same, but for FLIP; those without variances for relMSE in place of the Z-test.
 struct Criteria {
     std::optional<double> relMse;       // at most
     std::optional<double> flip;         // mean FLIP, at most

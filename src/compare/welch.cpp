@@ -116,6 +116,13 @@ double WelchTest::fractionBelow(float limit) const {
     return static_cast<double>(below) / static_cast<double>(absZ.size());
 }
 
+bool hasTestablePixel(const Estimate& image, const Estimate& reference) {
+    for (size_t i = 0; i < image.mean->pixels.size(); ++i)
+        if (canBeTested(image, i) && canBeTested(reference, i))
+            return true;
+    return false;
+}
+
 std::vector<TileDifference> tileDifferences(const Estimate& image, const Estimate& reference,
                                             uint32_t tileSize) {
     assert(tileSize > 0 && image.mean != nullptr && reference.mean != nullptr);

@@ -41,6 +41,9 @@ struct TileDifference {
 // has no deviation.
 [[nodiscard]] double absoluteZ(double difference, double deviation);
 
+// Whether the images have a pixel that can be tested. They have one size.
+[[nodiscard]] bool hasTestablePixel(const Estimate& image, const Estimate& reference);
+
 struct WelchTest {
     std::vector<float> absZ; // |z| of tiles row by row, three channels each; 0 where nothing could be tested
     float maxAbsZ = 0.0f;    // infinite where means differ though both variances are zero

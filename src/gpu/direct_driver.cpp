@@ -87,7 +87,12 @@ void giveManifest(const std::filesystem::path& library) {
             fmt::format("cannot hand the driver {} to this Vulkan loader, which is older than 1.3.243: "
                         "there is no manifest {}; try the loader's own VK_ADD_DRIVER_FILES",
                         library.string(), manifest.string()));
-    ::setenv("VK_ADD_DRIVER_FILES", manifest.c_str(), 1);
+    constexpr const char* kManifests = "VK_ADD_DRIVER_FILES";
+    const char* others = std::getenv(kManifests);
+    const std::string known = others == nullptr ? "" : others;
+    if (known.find(manifest.string()) == std::string::npos)
+        ::setenv(kManifests, (known.empty() ? manifest.string() : manifest.string() + ":" + known).c_str(),
+                 1);
 }
 
 } // namespace
@@ -102,6 +107,8 @@ const VkDirectDriverLoadingListLUNARG* directDriver(bool knowsDirectDrivers) {
     DirectDriver& driver = theDriver();
     const std::lock_guard lock(driver.mutex);
     const char* named = std::getenv(kDriverVariable);
+    if (named != nullptr && std::string_view(named) == "system")
+        return nullptr;
     if (named != nullptr && *named != '\0')
         driver.wanted = named;
     if (driver.wanted.empty())

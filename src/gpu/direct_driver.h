@@ -7,7 +7,8 @@
 
 namespace lavalight::gpu {
 
-// The environment variable that names a driver's library for the whole process.
+// The environment variable that names a driver's library for the whole process, or "system": those of the
+// system alone, whatever useDriver() says.
 inline constexpr const char* kDriverVariable = "LAVALIGHT_DRIVER";
 
 // Instances that are made from now on know the driver of this library, beside those of the system and before

@@ -139,6 +139,16 @@ RTCRay toEmbree(vec3 origin, vec3 direction, float tMax) {
     return ray;
 }
 
+// What Embree takes: it ends the program for a ray that is not finite or starts beyond 1.8e18, which a camera
+// at the end of the world may ask for. Such a ray meets nothing.
+bool isTraceable(vec3 origin, vec3 direction) {
+    constexpr float kFarthest = 1e18f;
+    const auto isWithin = [](const vec3& v) {
+        return std::abs(v.x) <= kFarthest && std::abs(v.y) <= kFarthest && std::abs(v.z) <= kFarthest;
+    };
+    return isWithin(origin) && isWithin(direction);
+}
+
 Query makeQuery(ShaderRays& shader, vec3 origin, vec3 direction, float tMax,
                 const ShaderRays::RayFilter& ignored) {
     Query query{{}, &shader, &ignored, shader.shearRay(origin, direction), {tMax, 0, vec2(0.0f)}, {0}};
@@ -186,6 +196,10 @@ void occlude(RTCScene scene, Query& query, RTCRay& ray) {
 
 bool ShaderRays::intersectClosest(vec3 origin, vec3 direction, float tMax, RayFilter ignored, Hit& hit) {
     Query query = makeQuery(*this, origin, direction, tMax, ignored);
+    if (!isTraceable(origin, direction)) {
+        hit = query.nearest;
+        return false;
+    }
     RTCRayHit ray;
     ray.ray = toEmbree(origin, direction, tMax);
     ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
@@ -195,6 +209,8 @@ bool ShaderRays::intersectClosest(vec3 origin, vec3 direction, float tMax, RayFi
 }
 
 bool ShaderRays::intersectAny(vec3 origin, vec3 direction, float tMax, RayFilter ignored) {
+    if (!isTraceable(origin, direction))
+        return false;
     Query query = makeQuery(*this, origin, direction, tMax, ignored);
     RTCRay ray = toEmbree(origin, direction, tMax);
     occlude(embree, query, ray);

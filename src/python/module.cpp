@@ -147,6 +147,7 @@ NB_MODULE(_lavalight, module) {
     module.def("lab_json", &labJson, nb::arg("experiment"), nb::arg("samples"), nb::arg("seed"));
     module.def(
         "use_driver", [](const std::string& library) { gpu::useDriver(library); }, nb::arg("library"));
+    module.def("forbid_renders", &forbidRenders, nb::arg("reason"));
     module.def("run_command", &runCommand, nb::arg("words"));
     module.def(
         "close", [] { SessionPool::ofProcess().clear(); }, nb::call_guard<nb::gil_scoped_release>());

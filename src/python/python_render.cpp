@@ -63,10 +63,25 @@ class Watch {
     std::optional<nb::python_error> raised_;
 };
 
+// Why no render may begin any more; empty: they may. With Python's lock.
+std::string& reasonAgainstRenders() {
+    static auto* reason = new std::string;
+    return *reason;
+}
+bool hasOpenedDevice = false; // with Python's lock
+
 } // namespace
+
+void forbidRenders(const std::string& reason) {
+    if (hasOpenedDevice)
+        reasonAgainstRenders() = reason;
+}
 
 PythonRender::PythonRender(const PythonScene& scene, const std::vector<std::string>& words,
                            bool isProgressive) {
+    if (!reasonAgainstRenders().empty())
+        throw Error(reasonAgainstRenders());
+    hasOpenedDevice = true;
     const std::shared_ptr<const Scene> loaded = scene.scene();
     const std::string name = scene.name();
     const LightingSettings lighting = scene.lighting();

@@ -37,6 +37,9 @@ class PythonRender {
     bool isBusy_ = false;
 };
 
+// Makes every render of this process throw Error with that message, once a device has been opened in it.
+void forbidRenders(const std::string& reason);
+
 // Declares the class in the module.
 void declareRender(nanobind::module_& module);
 

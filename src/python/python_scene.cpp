@@ -3,6 +3,7 @@
 #include <array>
 #include <optional>
 
+#include <fmt/format.h>
 #include <nanobind/stl/array.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
@@ -36,7 +37,7 @@ struct MaterialView {
 
 void requireIn(const char* name, double value, double least, double most) {
     if (!(value >= least && value <= most))
-        throw UsageError(std::string(name) + ": is out of its range");
+        throw UsageError(fmt::format("{}: {:g} is not from {:g} to {:g}", name, value, least, most));
 }
 
 // A number of a material that stays within a range.

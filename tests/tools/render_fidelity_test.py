@@ -79,10 +79,25 @@ class RenderFidelity(unittest.TestCase):
         config.parent.mkdir()
         config.write_text(json.dumps({"scenarios": [scenario(), scenario(name="gone", model="../Models/Gone/glTF/gone.gltf")]}))
         done = tool("--config", config, "--out", self.folder / "page")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(done.returncode, 1, "one scenario failed")
         page = (self.folder / "page/index.html").read_text()
         self.assertIn('src="box.png"', page)
         self.assertIn("cannot find ../Models/Gone/glTF/gone.gltf", page)
+        self.assertTrue((self.folder / "page/box.png").is_file())
+
+    def test_a_view_from_right_above_has_an_up(self):
+        _, done = self.job(orbit={"theta": 0, "phi": 0, "radius": 4})
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_a_scenario_that_cannot_be_understood_does_not_end_the_others(self):
+        config = self.folder / "test/config.json"
+        config.parent.mkdir()
+        dark = {key: value for key, value in scenario(name="dark").items() if key != "lighting"}
+        config.write_text(json.dumps({"scenarios": [dark, scenario(name="odd", orbit=None), scenario()]}))
+        done = tool("--config", config, "--out", self.folder / "page")
+        self.assertEqual(done.returncode, 1)
+        page = (self.folder / "page/index.html").read_text()
+        self.assertIn("has no &#x27;lighting&#x27;", page)
         self.assertTrue((self.folder / "page/box.png").is_file())
 
     def test_models_are_found_below_a_folder_of_models(self):

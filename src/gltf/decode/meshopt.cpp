@@ -18,9 +18,10 @@ namespace {
 
 using Json = nlohmann::json;
 
-// Bytes that a byte of a stream decodes to at most. Elements have at most 256 bytes; 16 equal bytes take 2
-// bits, a triangle (12 bytes at most) one byte.
+// Bytes that a byte of a stream decodes to at most. In version 0, 16 equal bytes take 2 bits, and a triangle
+// (12 bytes at most) takes one byte. In version 1, 256 equal bytes take 2 bits.
 constexpr uint64_t kMostExpansion = 64;
+constexpr uint64_t kMostExpansionOfVersion1 = 1024;
 
 // Libraries before 1.0 decode neither version 1 of vertices nor the filter of colours.
 #if MESHOPTIMIZER_VERSION >= 1000
@@ -74,6 +75,11 @@ std::string unsupportedPart(const Stream& stream) {
     return fmt::format("the filter \"{}\"", stream.filter);
 }
 
+uint64_t mostExpansion(const Stream& stream) {
+    const bool isVersion1 = !stream.bytes.empty() && static_cast<unsigned char>(stream.bytes.front()) == 0xA1;
+    return isVersion1 ? kMostExpansionOfVersion1 : kMostExpansion;
+}
+
 // The figures that the extension allows, which the decoders take for granted.
 bool isSound(const Stream& stream, uint64_t viewLength) {
     const bool isIndex = stream.mode != "ATTRIBUTES";
@@ -89,7 +95,7 @@ bool isSound(const Stream& stream, uint64_t viewLength) {
     if (stream.filter == "QUATERNION" && stream.stride != 8)
         return false;
     return stream.count <= viewLength / stream.stride && stream.count * stream.stride == viewLength &&
-           viewLength / kMostExpansion <= stream.bytes.size();
+           viewLength / mostExpansion(stream) <= stream.bytes.size();
 }
 
 bool decode(const Stream& stream, std::string& bytes) {

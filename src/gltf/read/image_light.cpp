@@ -19,6 +19,7 @@ namespace {
 
 constexpr size_t kFaces = 6;
 constexpr const char* kName = "EXT_lights_image_based";
+constexpr double kBrightest = 1e15; // as for other lights: sums over a map stay finite
 
 // RGBD: sRGB colours divided by alpha. Pictures without alpha are plain colours, since theirs is 1.
 glm::vec3 radianceOf(const Picture& picture, size_t texel, uint64_t& badTexels) {
@@ -39,8 +40,7 @@ glm::vec3 radianceOf(const Picture& picture, size_t texel, uint64_t& badTexels) 
 
 Image readFace(const GltfDocument& document, size_t index, uint64_t& badTexels) {
     if (index >= document.images.size())
-        throw Error(
-            fmt::format("the file has {} images, and a face is number {}", document.images.size(), index));
+        throw Error(fmt::format("the file has {} images, and a face is another one", document.images.size()));
     const GltfImage& image = document.images[index];
     if (!image.problem.empty())
         throw Error(fmt::format("{}: {}", image.name, image.problem));
@@ -91,7 +91,7 @@ glm::vec3 radianceOfHarmonics(JsonView coefficients, const glm::dvec3& d) {
                                coefficient[2].asNumber(0.0));
         sum += color * basis[i] / kConvolution[i];
     }
-    return glm::vec3(glm::max(sum, glm::dvec3(0.0)));
+    return glm::vec3(glm::clamp(sum, glm::dvec3(0.0), glm::dvec3(kBrightest)));
 }
 
 // A cube map of the harmonics, small since they are smooth.
@@ -150,9 +150,13 @@ std::optional<EnvironmentMap> readImageLight(const GltfDocument& document, GltfN
         notes.add(
             fmt::format("{} has {} texels whose alpha is 0, which were taken as black", name, map.badTexels));
     map.image = unrollCubeMap(cube, toCubeOf(light));
-    const auto intensity = static_cast<float>(std::max(light.number("intensity", 1.0), 0.0));
+    const double intensity = light.number("intensity", 1.0);
+    if (!(intensity >= 0.0 && intensity <= kBrightest))
+        notes.add(fmt::format("{} has an intensity of {:g}, which is taken as one of 0 to {:g}", name,
+                              intensity, kBrightest));
+    const auto scale = static_cast<float>(std::clamp(intensity, 0.0, kBrightest));
     for (glm::vec3& pixel : map.image.pixels)
-        pixel = glm::min(pixel * intensity, glm::vec3(std::numeric_limits<float>::max()));
+        pixel = glm::min(pixel * scale, glm::vec3(static_cast<float>(kBrightest)));
     return map;
 }
 

@@ -110,6 +110,14 @@ TEST(WelchTest, WhatRoundingExplainsIsNoDifference) {
     EXPECT_EQ(welchTest(estimateOf(pixel(1.0002f, 0.0f, 8)), estimateOf(a), 1).maxAbsZ, kInfinity);
 }
 
+TEST(WelchTest, ImagesOfOneSampleHaveNoPixelThatCanBeTested) {
+    const Rendering one = pixel(9.0f, 0.0f, 1);
+    const Rendering many = pixel(1.0f, 0.5f, 8);
+    EXPECT_FALSE(hasTestablePixel(estimateOf(one), estimateOf(many)));
+    EXPECT_FALSE(hasTestablePixel(estimateOf(many), estimateOf(one)));
+    EXPECT_TRUE(hasTestablePixel(estimateOf(many), estimateOf(many)));
+}
+
 TEST(WelchTest, PixelsOfOneSampleAreLeftOutAndNanNeverPasses) {
     const Rendering a = pixel(1.0f, 0.0f, 8);
     EXPECT_EQ(welchTest(estimateOf(pixel(9.0f, 0.0f, 1)), estimateOf(a), 1).p, 1.0);

@@ -180,6 +180,28 @@ TEST(GltfMeshopt, VerticesOfCodecVersionOneComeBackAsTheyWent) {
     EXPECT_EQ(builder.import().meshes.at(0).positions, kSquare);
 }
 
+TEST(GltfMeshopt, VersionOneMayExpandAThousandTimes) {
+    GltfBuilder builder;
+    const std::vector<uint32_t> white(30000, 0xFFFFFFFF);
+    Bytes stream(meshopt_encodeVertexBufferBound(white.size(), 4));
+    stream.resize(
+        meshopt_encodeVertexBufferLevel(stream.data(), stream.size(), white.data(), white.size(), 4, 3, 1));
+    ASSERT_LT(stream.size() * 64, white.size() * 4);
+    const int view = addCompressed(builder, stream, "ATTRIBUTES", white.size(), 4);
+    builder.json["bufferViews"].back()["byteStride"] = 4;
+    const int color = builder.addAccessor({{"bufferView", view},
+                                           {"componentType", kUnsignedByte},
+                                           {"normalized", true},
+                                           {"count", white.size()},
+                                           {"type", "VEC4"}});
+    const std::vector<glm::vec3> positions(white.size(), glm::vec3(1.0f));
+    builder.addNode(
+        {{"mesh", builder.addMesh(
+                      {{"attributes", {{"POSITION", builder.addVec3(positions)}, {"COLOR_0", color}}}})}});
+    declareBuffers(builder);
+    EXPECT_EQ(importError(builder), "");
+}
+
 TEST(GltfMeshopt, ColorFilterGivesTheColorsBack) {
     GltfBuilder builder;
     const std::vector<glm::vec4> colors = {

@@ -120,7 +120,7 @@ TEST(GltfImageLight, WithoutFacesTheCoefficientsLight) {
 TEST(GltfImageLight, FacesThatAreNotThereAreNoted) {
     GltfBuilder builder = lit(kSixFaces);
     lightOf(builder)["specularImages"][0][3] = 99;
-    EXPECT_EQ(warningsWith(builder.import(), "the file has 6 images, and a face is number 99"), 1);
+    EXPECT_EQ(warningsWith(builder.import(), "the file has 6 images, and a face is another one"), 1);
     lightOf(builder)["specularImages"] = "none";
     EXPECT_EQ(warningsWith(builder.import(), "six faces, not 0"), 1);
     builder.json["scenes"][0]["extensions"][kExtension]["light"] = 5;
@@ -132,6 +132,15 @@ TEST(GltfImageLight, AScenesLightIsThatOfTheChosenScene) {
     builder.json["scenes"].push_back({{"nodes", {0}}});
     EXPECT_TRUE(importGltf("test.glb", builder.glb(), {.scene = "0"}).environmentMap.has_value());
     EXPECT_FALSE(importGltf("test.glb", builder.glb(), {.scene = "1"}).environmentMap.has_value());
+}
+
+TEST(GltfImageLight, LightBeyondAllBoundsIsLimitedAndFinite) {
+    GltfBuilder builder = lit(std::vector<uint32_t>(6, 0xFF00FF00));
+    lightOf(builder)["intensity"] = 1e39;
+    const Scene scene = builder.import();
+    EXPECT_EQ(warningsWith(scene, "has an intensity of 1e+39"), 1);
+    for (const glm::vec3& pixel : scene.environmentMap.value().image.pixels)
+        ASSERT_TRUE(std::isfinite(pixel.x) && std::isfinite(pixel.y) && pixel.y <= 1e15f);
 }
 
 } // namespace
