@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include <gtest/gtest.h>
+#include <meshoptimizer.h>
 
 #include "base/error.h"
 #include "gltf/import.h"
@@ -183,6 +184,8 @@ TEST_F(Assets, GlassOfTheLivingRoomIsSolidAndClear) {
 
 // Every row of cubes is compressed in another way; the first is not. Columns are of one kind.
 TEST_F(Assets, EveryCubeOfMeshoptCubeTestIsTheOneAboveIt) {
+    if (MESHOPTIMIZER_VERSION < 1000)
+        GTEST_SKIP() << "built with a meshoptimizer that does not know codec 1";
     const Scene scene = importGltf(folder_ / "meshopt-samples/MeshoptCubeTest/MeshoptCubeTest.gltf");
     EXPECT_TRUE(scene.warnings.empty()) << scene.warnings.front();
     std::vector<const Mesh*> cubes;
