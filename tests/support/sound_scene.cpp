@@ -79,6 +79,8 @@ std::string unsoundCamera(const Camera& camera) {
         return "axis not of unit length";
     if (!std::isfinite(camera.verticalFov) || !std::isfinite(camera.halfHeight))
         return "view not finite";
+    if (camera.projection == Projection::perspective ? camera.verticalFov <= 0.0f : camera.halfHeight <= 0.0f)
+        return "view without height";
     return !camera.aspect || (std::isfinite(*camera.aspect) && *camera.aspect > 0.0f) ? "" : "aspect";
 }
 

@@ -33,9 +33,13 @@ bool placeCamera(const glm::dmat4& toWorld, Camera& camera) {
     return isFinite(camera.position);
 }
 
+// Left alone where `aspect` is no ratio that a float holds.
 void setAspect(double aspect, Camera& camera) {
-    camera.aspect = static_cast<float>(aspect);
-    camera.framedAspect = *camera.aspect;
+    const auto ratio = static_cast<float>(aspect);
+    if (!(ratio > 0.0f) || !std::isfinite(ratio))
+        return;
+    camera.aspect = ratio;
+    camera.framedAspect = ratio;
 }
 
 // Infinite where the file names no far plane. Planes that would leave nothing to be seen are left out.
@@ -53,13 +57,10 @@ void setPlanes(JsonView source, const std::string& name, Camera& camera, GltfNot
 
 // False for a field of view that no image has.
 bool setPerspective(JsonView source, Camera& camera) {
-    const double yfov = source.number("yfov", 0.0);
-    const double aspect = source.number("aspectRatio", 0.0);
     camera.projection = Projection::perspective;
-    camera.verticalFov = static_cast<float>(yfov);
-    if (aspect > 0.0)
-        setAspect(aspect, camera);
-    return yfov > 0.0 && yfov < glm::pi<double>();
+    camera.verticalFov = static_cast<float>(source.number("yfov", 0.0));
+    setAspect(source.number("aspectRatio", 0.0), camera);
+    return camera.verticalFov > 0.0f && camera.verticalFov < glm::pi<double>();
 }
 
 bool setOrthographic(JsonView source, Camera& camera) {
@@ -67,8 +68,7 @@ bool setOrthographic(JsonView source, Camera& camera) {
     const double ymag = source.number("ymag", 0.0);
     camera.projection = Projection::orthographic;
     camera.halfHeight = static_cast<float>(std::abs(ymag));
-    if (xmag != 0.0 && ymag != 0.0)
-        setAspect(std::abs(xmag / ymag), camera);
+    setAspect(std::abs(xmag / ymag), camera);
     return camera.halfHeight > 0.0f && std::isfinite(camera.halfHeight);
 }
 

@@ -217,6 +217,27 @@ TEST(GltfLimits, HugeAndUndefinedTransformsLeaveASoundScene) {
     }
 }
 
+// A double of a file may be zero or infinite as the float of a scene.
+TEST(GltfLimits, CameraNumbersBeyondFloatsLeaveASoundScene) {
+    const auto scene = [](const Json& camera) {
+        GltfBuilder builder = goodFile();
+        builder.json["cameras"] = {camera};
+        builder.json["nodes"][0]["camera"] = 0;
+        return builder.import();
+    };
+    const std::vector<double> numbers = {1e-310, 1e-46, 1e-40, 1.0, 3.1415926535, 1e39, 1e308};
+    for (const double first : numbers) {
+        for (const double second : numbers) {
+            const Json perspective = {{"yfov", first}, {"aspectRatio", second}, {"znear", 0.1}};
+            EXPECT_EQ(unsoundPart(scene({{"type", "perspective"}, {"perspective", perspective}})), "")
+                << perspective;
+            const Json orthographic = {{"xmag", first}, {"ymag", second}, {"zfar", 1}, {"znear", 0}};
+            EXPECT_EQ(unsoundPart(scene({{"type", "orthographic"}, {"orthographic", orthographic}})), "")
+                << orthographic;
+        }
+    }
+}
+
 // Read for each channel anew, they would be 10^11 keys.
 TEST(GltfLimits, TimesThatThousandsOfChannelsShareAreReadOnce) {
     GltfBuilder builder = goodFile();
