@@ -148,7 +148,7 @@ def _matrix(what: str, values: npt.ArrayLike) -> list[float]:
 def _unit(vector: npt.NDArray[np.float64], what: str) -> npt.NDArray[np.float64]:
     length = float(np.linalg.norm(vector))
     if not length > 0.0 or not math.isfinite(length):
-        raise ValueError(f"{what}: {vector.tolist()} is no direction")
+        raise ValueError(f"{what}: {vector.tolist()} is not a direction; try one with a length")
     return vector / length
 
 

@@ -23,7 +23,7 @@ class Table:
     def column(self, key: str) -> list[Any]:
         """The cells of a column. Raises KeyError for one that there is not."""
         if key not in self.columns:
-            raise KeyError(f"there is no column {key!r}; there are {', '.join(self.columns)}")
+            raise KeyError(f"cannot find column {key!r}; try one of {', '.join(self.columns)}")
         return [row.get(key) for row in self.rows]
 
     def __str__(self) -> str:

@@ -25,7 +25,7 @@ class Materials(Sequence[_lavalight.Material]):
         for material in self._materials:
             if material.name == key:
                 return material
-        raise KeyError(f"there is no material {key!r}; there are {', '.join(repr(m.name) for m in self._materials)}")
+        raise KeyError(f"cannot find material {key!r}; try one of {', '.join(repr(m.name) for m in self._materials)}")
 
     def __len__(self) -> int:
         return len(self._materials)

@@ -16,7 +16,7 @@ def test_experiments_are_tables():
     assert table.name in repr(table)
     assert str(table).strip()
     assert table._repr_html_().count("<tr>") == len(table.rows) + 1
-    with pytest.raises(KeyError, match="there is no column"):
+    with pytest.raises(KeyError, match="cannot find column"):
         table.column("nothing")
 
 

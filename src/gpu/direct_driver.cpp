@@ -85,7 +85,7 @@ void giveManifest(const std::filesystem::path& library) {
     if (!std::filesystem::exists(manifest))
         throw Error(
             fmt::format("cannot hand the driver {} to this Vulkan loader, which is older than 1.3.243: "
-                        "there is no manifest {}; try the loader's own VK_ADD_DRIVER_FILES",
+                        "{} is missing; try the loader's own VK_ADD_DRIVER_FILES",
                         library.string(), manifest.string()));
     constexpr const char* kManifests = "VK_ADD_DRIVER_FILES";
     const char* others = std::getenv(kManifests);

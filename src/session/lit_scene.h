@@ -17,7 +17,7 @@ namespace lavalight {
 [[nodiscard]] Scene loadLitScene(const std::string& nameOrPath, const ImportOptions& options,
                                  const LightingSettings& lighting);
 
-// The same for a scene that is loaded already.
+// Gives a scene that is loaded already the light that loadLitScene() would give it.
 void lightScene(Scene& scene, const LightingSettings& lighting);
 
 // The height of the ground that belongs right below the scene, in the world.

@@ -24,7 +24,7 @@ struct RenderPlan {
     CameraChoice camera;
     gpu::DeviceConfig device;
     OutputStyle style;
-    // That scene with its light, where it is at hand already; null: it is loaded.
+    // The scene with its light, if the caller has it already; null: the session loads it.
     std::shared_ptr<const Scene> loaded{};
 };
 
