@@ -16,6 +16,7 @@
 #include "cli/commands/lab_command.h"
 #include "cli/commands/merge_command.h"
 #include "cli/commands/new_experiment_command.h"
+#include "cli/commands/pack_command.h"
 #include "cli/commands/presets_command.h"
 #include "cli/commands/render_command.h"
 #include "cli/commands/trace_command.h"
@@ -65,6 +66,7 @@ CommandLine::CommandLine()
     commands_.push_back(std::make_unique<DevicesCommand>(app));
     commands_.push_back(std::make_unique<CompareCommand>(app));
     commands_.push_back(std::make_unique<MergeCommand>(app));
+    commands_.push_back(std::make_unique<PackCommand>(app));
     commands_.push_back(std::make_unique<BenchCommand>(app));
 }
 

@@ -118,20 +118,27 @@ Picture decodePng(std::string_view bytes) {
 }
 
 struct Format {
+    const char* mediaType;
     bool (*isOf)(std::string_view);
     PictureSize (*measure)(std::string_view);
     Picture (*decode)(std::string_view);
 };
-constexpr std::array<Format, 4> kFormats = {{{isPng, measurePng, decodePng},
-                                             {isJpeg, measureJpeg, decodeJpeg},
-                                             {isWebp, measureWebp, decodeWebp},
-                                             {isKtx2, measureKtx2, decodeKtx2}}};
+constexpr std::array<Format, 4> kFormats = {{{"image/png", isPng, measurePng, decodePng},
+                                             {"image/jpeg", isJpeg, measureJpeg, decodeJpeg},
+                                             {"image/webp", isWebp, measureWebp, decodeWebp},
+                                             {"image/ktx2", isKtx2, measureKtx2, decodeKtx2}}};
 
-// stb reads more formats, which glTF does not have and nobody has tested.
-const Format& formatOf(std::string_view bytes) {
+// Null for anything else: stb reads more formats, which glTF does not have and nobody has tested.
+const Format* findFormat(std::string_view bytes) {
     for (const Format& format : kFormats)
         if (format.isOf(bytes))
-            return format;
+            return &format;
+    return nullptr;
+}
+
+const Format& formatOf(std::string_view bytes) {
+    if (const Format* format = findFormat(bytes))
+        return *format;
     throw Error("it is not a PNG, JPEG, WebP or KTX2 file");
 }
 
@@ -139,6 +146,11 @@ const Format& formatOf(std::string_view bytes) {
 
 PictureSize measurePicture(std::string_view bytes) {
     return formatOf(bytes).measure(bytes);
+}
+
+std::string mediaTypeOf(std::string_view bytes) {
+    const Format* format = findFormat(bytes);
+    return format == nullptr ? std::string() : format->mediaType;
 }
 
 Picture decodePicture(std::string_view bytes) {

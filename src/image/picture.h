@@ -30,6 +30,9 @@ struct PictureSize {
 // other formats, for pictures of too many texels, and of more than their bytes can hold.
 [[nodiscard]] PictureSize measurePicture(std::string_view bytes);
 
+// "image/png", "image/jpeg", "image/webp" or "image/ktx2", by the first bytes; empty for anything else.
+[[nodiscard]] std::string mediaTypeOf(std::string_view bytes);
+
 // Decodes the bytes of a PNG, JPEG, WebP or KTX2 file, told apart by their first bytes. Grey becomes RGB, a
 // missing alpha 1. Throws Error as measurePicture does, before anything is allocated, and for damaged bytes,
 // unless a JPEG can be shown all the same.
