@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "film/film_file.h"
+#include "film/film_machines.h"
 
 namespace lavalight {
 namespace {
@@ -33,8 +34,8 @@ bool isOneOf(const std::array<std::string_view, N>& names, std::string_view name
 enum class Weight { none, source, decisive };
 
 Weight weightOf(std::string_view key, const std::vector<std::string>& alsoDecisive) {
-    if (key.starts_with(kContent) || key == "version" || key == kCommitKey || key == "device" ||
-        key == "driver")
+    if (key.starts_with(kContent) || key == "version" || key == kCommitKey || key == kMachines ||
+        isOneOf(kMachineKeys, key))
         return Weight::decisive;
     if (key == "scene" || key == "camera")
         return Weight::source;
@@ -48,9 +49,14 @@ Weight weightOf(std::string_view key, const std::vector<std::string>& alsoDecisi
     return isOneOf(kSources, option) ? Weight::source : Weight::decisive;
 }
 
-// Builds without git, and films of before, do not say a commit; their version speaks for them.
+// Builds without git, and films of before, do not say a commit; their version speaks for them. Films of
+// before do not say a processor either; their device speaks for it.
 bool isUnknown(std::string_view key, const std::string& a, const std::string& b) {
-    return key == kCommitKey && (a.empty() || b.empty());
+    return (key == kCommitKey || key == "processor") && (a.empty() || b.empty());
+}
+
+bool isOfMachine(std::string_view key) {
+    return key == kMachines || isOneOf(kMachineKeys, key);
 }
 
 std::string labelOf(std::string_view key) {
@@ -70,7 +76,7 @@ std::string shown(std::string_view key, const std::string& value) {
 } // namespace
 
 std::string differences(const FilmHeader& a, const FilmHeader& b,
-                        const std::vector<std::string>& alsoDecisive) {
+                        const std::vector<std::string>& alsoDecisive, Machines machines) {
     std::set<std::string> keys;
     for (const Metadata* metadata : {&a.metadata, &b.metadata})
         for (const auto& pair : *metadata)
@@ -81,7 +87,8 @@ std::string differences(const FilmHeader& a, const FilmHeader& b,
         const std::string ofA = valueOf(a.metadata, key);
         const std::string ofB = valueOf(b.metadata, key);
         const Weight weight = weightOf(key, alsoDecisive);
-        if (ofA == ofB || weight == Weight::none || isUnknown(key, ofA, ofB))
+        if (ofA == ofB || weight == Weight::none || isUnknown(key, ofA, ofB) ||
+            (machines == Machines::any && isOfMachine(key)))
             continue;
         isDecided = isDecided || weight == Weight::decisive;
         text += fmt::format("{}{} ({} in {}, {} in {})", text.empty() ? "" : ", ", labelOf(key),

@@ -14,11 +14,16 @@ struct FilmHeader {
     std::string name;
 };
 
+// Which machines may take samples of one film: those of one kind, whose samples have equal bits, or any,
+// whose samples have equal means.
+enum class Machines { ofOneKind, any };
+
 // What differs between two headers of what decides the bits of samples, with both values, in one line:
-// version, device, settings, scene, view, shaders, accelerator. Empty if nothing does. Where the content of
+// version, machine, settings, scene, view, shaders, accelerator. Empty if nothing does. Where the content of
 // the scene differs, so may its name, which alone does not count; `alsoDecisive`: names of further options
 // that do.
 [[nodiscard]] std::string differences(const FilmHeader& a, const FilmHeader& b,
-                                      const std::vector<std::string>& alsoDecisive = {});
+                                      const std::vector<std::string>& alsoDecisive = {},
+                                      Machines machines = Machines::ofOneKind);
 
 } // namespace lavalight

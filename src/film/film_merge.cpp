@@ -1,6 +1,7 @@
 #include "film/film_merge.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -8,6 +9,7 @@
 #include "film/bias_ledger.h"
 #include "film/film_cost.h"
 #include "film/film_identity.h"
+#include "film/film_machines.h"
 
 namespace lavalight {
 namespace {
@@ -70,13 +72,22 @@ void joinWindows(FilmFile& sum, const FilmFile& part) {
         setValue(sum.metadata, kCropKey, textOf(windows));
 }
 
-void requireOneImage(const NamedFilm& a, const NamedFilm& b) {
+// The end of a refusal, where the films differ in nothing but their machines.
+std::string remedyOf(const FilmHeader& a, const FilmHeader& b) {
+    return differences(a, b, {}, Machines::any).empty()
+               ? "; try --statistical, which asks for equal means in place of equal bits"
+               : "";
+}
+
+void requireOneImage(const NamedFilm& a, const NamedFilm& b, Machines machines) {
     const auto refuse = [&](const std::string& why) {
         throw Error(fmt::format("cannot merge {} with {}: {}", b.name, a.name, why));
     };
-    const std::string difference = differences({a.file.metadata, a.name}, {b.file.metadata, b.name});
+    const FilmHeader ofA{a.file.metadata, a.name};
+    const FilmHeader ofB{b.file.metadata, b.name};
+    const std::string difference = differences(ofA, ofB, {}, machines);
     if (!difference.empty())
-        refuse(fmt::format("they differ in {}", difference));
+        refuse(fmt::format("they differ in {}{}", difference, remedyOf(ofA, ofB)));
     if (wholeOf(a.file) != wholeOf(b.file))
         refuse("they differ in size");
     if (!(a.file.film.layout == b.file.film.layout))
@@ -102,7 +113,9 @@ void requireOneImage(const NamedFilm& a, const NamedFilm& b) {
 // The ledger's words come from the settings, and from the tallies of all samples.
 std::string joinedLedger(const FilmFile& file) {
     std::string ofSettings = valueOf(file.metadata, kSettingsLedger);
-    const std::vector<LedgerEntry> entries = tallyEntries(readable(file.film.tallies));
+    std::vector<LedgerEntry> entries = machineEntries(file.metadata);
+    for (LedgerEntry& entry : tallyEntries(readable(file.film.tallies)))
+        entries.push_back(std::move(entry));
     if (entries.empty())
         return ofSettings;
     const bool isEmpty = ofSettings == ledgerText({});
@@ -120,11 +133,13 @@ void describeSamples(FilmFile& file) {
 
 } // namespace
 
-void join(NamedFilm& sum, const NamedFilm& part) {
+void join(NamedFilm& sum, const NamedFilm& part, Machines machines) {
     requireComplete(sum);
     requireComplete(part);
-    requireOneImage(sum, part);
+    requireOneImage(sum, part, machines);
     FilmFile& file = sum.file;
+    if (machines == Machines::any)
+        joinMachines(file, part.file);
     const FilmCost cost = costOf(file) + costOf(part.file);
     if (windowsOf(file) == windowsOf(part.file))
         add(file.film, part.file.film);

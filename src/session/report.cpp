@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/os/processor.h"
 #include "base/version.h"
 #include "film/id_layers.h"
 #include "render/phase.h"
@@ -152,6 +153,8 @@ Metadata exrMetadata(const RenderReport& report) {
         {"bias-ledger", ledgerText(report.ledger)}};
     if (!kCommit.empty())
         metadata.emplace_back("commit", kCommit);
+    if (report.device.isCpu) // a card's bits do not depend on it
+        metadata.emplace_back("processor", processorKind());
     if (report.origin != glm::dvec3(0.0))
         metadata.emplace_back("origin",
                               fmt::format("{},{},{}", report.origin.x, report.origin.y, report.origin.z));
@@ -176,6 +179,7 @@ std::string reportJson(const RenderReport& report) {
                       {"driver", report.device.driver},
                       {"type", report.device.type},
                       {"api", report.device.apiVersion}};
+    json["processor"] = processorKind();
     json["settings"] = pairsJson(describeOptions(report));
     if (report.tone)
         json["png"] = {{"tonemap", nameOf(report.tone->curve)}, {"exposure", report.tone->exposure}};

@@ -22,6 +22,10 @@ MergeCommand::MergeCommand(CLI::App& app)
         .add_option("-o,--output", output_, "EXR file; it can be merged again")
         ->type_name("OUT.exr")
         ->required();
+    parser().add_flag(
+        "--statistical", isStatistical_,
+        "Join parts of different devices, drivers and processors, too: their means are equal, their bits are "
+        "not; the ledger names each kind");
 }
 
 int MergeCommand::run() {
@@ -37,8 +41,9 @@ int MergeCommand::run() {
     requireApart(outputs, inputs);
     requireWritable(output_);
     NamedFilm sum{parts_.front(), readFilmFile(parts_.front())};
+    const Machines machines = isStatistical_ ? Machines::any : Machines::ofOneKind;
     for (size_t i = 1; i < parts_.size(); ++i) {
-        join(sum, {parts_[i], readFilmFile(parts_[i])});
+        join(sum, {parts_[i], readFilmFile(parts_[i])}, machines);
         sum.name = fmt::format("{} to {}", parts_.front(), parts_[i]);
     }
     const SampleRanges& ranges = sum.file.ranges;

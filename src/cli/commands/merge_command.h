@@ -16,6 +16,7 @@ class MergeCommand : public Command {
   private:
     std::vector<std::string> parts_;
     std::string output_;
+    bool isStatistical_ = false;
 };
 
 } // namespace lavalight

@@ -107,6 +107,58 @@ TEST(FilmMerge, NamesCountOnlyWhereContentDiffers) {
               std::string::npos);
 }
 
+FilmFile onMachine(FilmFile film, const std::string& processor, const std::string& device = "some device") {
+    setValue(film.metadata, "processor", processor);
+    setValue(film.metadata, "device", device);
+    return film;
+}
+
+TEST(FilmMerge, FilmsOfOtherProcessorsAreRefusedWithARemedy) {
+    const FilmFile first = onMachine(someFilm(1, {0, 8}), "A family 1");
+    EXPECT_EQ(refusalOf(first, onMachine(someFilm(2, {8, 16}), "A family 1")), "");
+    EXPECT_EQ(refusalOf(first, onMachine(someFilm(2, {8, 16}), "B family 2")),
+              "cannot merge b.exr with a.exr: they differ in processor (A family 1 in a.exr, B family 2 in "
+              "b.exr); try "
+              "--statistical, which asks for equal means in place of equal bits");
+    FilmFile otherSeed = onMachine(someFilm(2, {8, 16}), "B family 2");
+    setValue(otherSeed.metadata, "option:seed", "7");
+    EXPECT_EQ(refusalOf(first, otherSeed).find("--statistical"), std::string::npos) << "it would not help";
+    EXPECT_EQ(refusalOf(first, someFilm(2, {8, 16})), "") << "films of before do not say a processor";
+}
+
+TEST(FilmMerge, StatisticalMergingCountsEachSampleAndNamesTheKinds) {
+    NamedFilm sum = named("a.exr", onMachine(someFilm(1, {0, 8}), "A", "first"));
+    const FilmFile second = onMachine(someFilm(2, {8, 24}), "B", "second");
+    const FilmFile third = onMachine(someFilm(3, {24, 32}), "A", "first");
+    const uint64_t ofFirst = sum.file.film.samples() + third.film.samples();
+    RawFilm expected = sum.file.film;
+    join(sum, named("b.exr", second), Machines::any);
+    join(sum, named("c.exr", third), Machines::any);
+    add(expected, second.film);
+    add(expected, third.film);
+    EXPECT_EQ(sum.file.film.words, expected.words);
+    EXPECT_EQ(valueOf(sum.file.metadata, "processor"), "A and B");
+    EXPECT_EQ(valueOf(sum.file.metadata, "device"), "first and second");
+    const std::string ledger = valueOf(sum.file.metadata, "bias-ledger");
+    EXPECT_NE(ledger.find("mixed-machines: " + std::to_string(ofFirst) +
+                          " samples by first, some driver, A, " + std::to_string(second.film.samples()) +
+                          " samples by second, some driver, B"),
+              std::string::npos)
+        << ledger;
+    const std::string refusal = errorOf([&] {
+        join(sum, named("d.exr", onMachine(someFilm(4, {32, 40}), "A", "first")));
+    });
+    EXPECT_NE(refusal.find("processor (A and B in a.exr, A in d.exr)"), std::string::npos) << refusal;
+}
+
+TEST(FilmMerge, StatisticalMergingOfOneKindIsOrdinary) {
+    NamedFilm sum = named("a.exr", onMachine(someFilm(1, {0, 8}), "A"));
+    join(sum, named("b.exr", onMachine(someFilm(2, {8, 16}), "A")), Machines::any);
+    EXPECT_EQ(valueOf(sum.file.metadata, "machines"), "");
+    EXPECT_EQ(valueOf(sum.file.metadata, "processor"), "A");
+    EXPECT_EQ(valueOf(sum.file.metadata, "bias-ledger").find("mixed-machines"), std::string::npos);
+}
+
 TEST(FilmMerge, FilmsThatLackSamplesAreTold) {
     FilmFile part = someFilm(2, {8, 16});
     part.progress = {4, 2, 3};

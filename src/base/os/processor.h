@@ -1,0 +1,16 @@
+// Which kind of processor this machine has.
+#pragma once
+
+#include <string>
+
+namespace lavalight {
+
+// What may decide the last bits of compiled kernels: maker, family and model, and the widest vectors, as in
+// "GenuineIntel family 6 model 85, avx2 fma avx512f". Clock, cores and stepping are left out. The
+// architecture's name where the system says no more.
+[[nodiscard]] std::string processorKind();
+
+// The same from the text of /proc/cpuinfo; empty where it does not say them.
+[[nodiscard]] std::string processorKindIn(const std::string& cpuinfo);
+
+} // namespace lavalight
