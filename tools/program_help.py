@@ -4,6 +4,9 @@ import subprocess
 from dataclasses import dataclass
 
 
+COLUMN = 30  # where meanings begin in --help
+
+
 def help_of(program, command):
     return subprocess.run([program, *command.split(), "--help"], check=True, capture_output=True, text=True).stdout
 
@@ -15,7 +18,9 @@ def entries_of(text):
         if re.fullmatch(r"\S[^:]*:", line):
             section = line[:-1]
         elif section and re.match(r"  \S", line):
-            name, _, meaning = line[2:].partition("  ")
+            name, gap, meaning = line[2:].partition("  ")
+            if not gap and line[COLUMN - 1:COLUMN] == " " and " " in line[COLUMN:]:  # a name that ends where meanings begin
+                name, meaning = line[2:COLUMN], line[COLUMN:]
             entries.append([section, name.strip(), meaning.strip()])
         elif section and line.startswith("    "):
             entries[-1][2] = f"{entries[-1][2]} {line.strip()}".strip()

@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "base/error.h"
+#include "base/os/machine.h"
 #include "base/os/memory.h"
 
 namespace lavalight {
@@ -28,11 +29,12 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kUnfinished = ".part";
 
-// A name that is unique in this process and among processes: several renders may write into one folder.
+// A name that is unique in this process, among processes and among machines: several renders may write into
+// one folder.
 fs::path temporaryName(const fs::path& path) {
     static std::atomic<unsigned> counter{0};
     fs::path name = path;
-    name += fmt::format(".{}-{}{}", ::getpid(), counter++, kUnfinished);
+    name += fmt::format(".{}-{}-{}{}", hostName(), ::getpid(), counter++, kUnfinished);
     return name;
 }
 

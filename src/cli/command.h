@@ -27,6 +27,7 @@ class Command {
 
   protected:
     [[nodiscard]] CLI::App& parser() { return parser_; }
+    [[nodiscard]] const CLI::App& parser() const { return parser_; }
     // A command of this command.
     [[nodiscard]] CLI::App& addSubcommand(const std::string& name, const std::string& description);
 

@@ -19,6 +19,8 @@
 #include "cli/commands/pack_command.h"
 #include "cli/commands/presets_command.h"
 #include "cli/commands/render_command.h"
+#include "cli/commands/split_command.h"
+#include "cli/commands/status_command.h"
 #include "cli/commands/trace_command.h"
 #include "cli/commands/view_command.h"
 
@@ -66,6 +68,8 @@ CommandLine::CommandLine()
     commands_.push_back(std::make_unique<DevicesCommand>(app));
     commands_.push_back(std::make_unique<CompareCommand>(app));
     commands_.push_back(std::make_unique<MergeCommand>(app));
+    commands_.push_back(std::make_unique<SplitCommand>(app));
+    commands_.push_back(std::make_unique<StatusCommand>(app));
     commands_.push_back(std::make_unique<PackCommand>(app));
     commands_.push_back(std::make_unique<BenchCommand>(app));
 }

@@ -265,6 +265,20 @@ FilmFile readFilmFile(const std::filesystem::path& path) {
     }
 }
 
+FilmState readFilmState(const std::filesystem::path& path) {
+    const ExrHeader header = readExrHeader(path);
+    const auto ranges = parseSampleRanges(valueOf(header.metadata, kRanges));
+    const auto progress = parseNumbers<uint32_t, 3>(valueOf(header.metadata, kProgress));
+    if (!ranges || !progress)
+        throw Error(
+            fmt::format("cannot read {}: its header does not say which samples it holds", path.string()));
+    const auto [samples, passSamples, passPixels] = *progress;
+    const double pixels = static_cast<double>(header.width) * header.height;
+    const double ofPass = pixels > 0.0 ? passSamples * (passPixels / pixels) : 0.0;
+    return {(samples + ofPass) / countOf(*ranges),
+            parseNumber<double>(valueOf(header.metadata, "render-seconds")).value_or(0.0)};
+}
+
 std::string valueOf(const Metadata& metadata, const std::string& key) {
     const auto found =
         std::find_if(metadata.begin(), metadata.end(), [&](const auto& pair) { return pair.first == key; });

@@ -40,6 +40,15 @@ void writeFilmFile(const std::filesystem::path& path, const FilmFile& file, std:
 // Throws Error for whatever is no such file, or was damaged.
 [[nodiscard]] FilmFile readFilmFile(const std::filesystem::path& path);
 
+// How far a film is, by its header alone.
+struct FilmState {
+    double fraction = 0.0; // of the samples that it is to hold
+    double seconds = 0.0;  // that rendering took
+};
+
+// Throws Error for whatever is no such file.
+[[nodiscard]] FilmState readFilmState(const std::filesystem::path& path);
+
 // Value of a key, or empty.
 [[nodiscard]] std::string valueOf(const Metadata& metadata, const std::string& key);
 // Replaces the key's value, or adds it.

@@ -371,6 +371,14 @@ Image readExrEnvironment(const std::filesystem::path& path, uint64_t mostPixels)
     });
 }
 
+ExrHeader readExrHeader(const std::filesystem::path& path) {
+    return readWith(path, [](Imf::InputFile& file) {
+        const Imath::Box2i window = file.header().dataWindow();
+        return ExrHeader{static_cast<uint32_t>(window.max.x - window.min.x + 1),
+                         static_cast<uint32_t>(window.max.y - window.min.y + 1), readMetadata(file.header())};
+    });
+}
+
 std::optional<UintImage> readUintChannels(const std::filesystem::path& path, const ChannelNames& namesIn) {
     return readWith(path, [&](Imf::InputFile& file) { return readCounts(file, namesIn); });
 }

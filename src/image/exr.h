@@ -71,6 +71,15 @@ struct ExrFile : Rendering {
 // for more than `mostPixels` as well.
 [[nodiscard]] Image readExrEnvironment(const std::filesystem::path& path, uint64_t mostPixels);
 
+// What a file says of itself: the size of its data window, and metadata as ExrFile's. No pixel is read.
+// Throws Error as readExr does.
+struct ExrHeader {
+    uint32_t width = 0;
+    uint32_t height = 0;
+    Metadata metadata;
+};
+[[nodiscard]] ExrHeader readExrHeader(const std::filesystem::path& path);
+
 struct UintImage {
     uint32_t width = 0;
     uint32_t height = 0;

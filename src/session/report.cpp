@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "base/os/processor.h"
+#include "base/os/machine.h"
 #include "base/version.h"
 #include "film/id_layers.h"
 #include "render/phase.h"

@@ -1,14 +1,24 @@
 #include "cli/commands/merge_command.h"
 
+#include <algorithm>
+#include <cstdint>
+#include <utility>
+
 #include <fmt/format.h>
 
 #include "base/error.h"
 #include "base/file.h"
 #include "base/log.h"
-#include "film/film_merge.h"
+#include "base/parallel.h"
 #include "session/outputs.h"
 
 namespace lavalight {
+namespace {
+
+constexpr size_t kBytesAtOnce = 256u << 20; // of films that are read and not added yet
+constexpr size_t kMostAtOnce = 16;
+
+} // namespace
 
 MergeCommand::MergeCommand(CLI::App& app)
     : Command(app, "merge",
@@ -28,6 +38,23 @@ MergeCommand::MergeCommand(CLI::App& app)
         "not; the ledger names each kind");
 }
 
+// Reading takes most of the time: several parts are read at once, as many as suit the memory.
+NamedFilm MergeCommand::joined() const {
+    const Machines machines = isStatistical_ ? Machines::any : Machines::ofOneKind;
+    NamedFilm sum{parts_.front(), readFilmFile(parts_.front())};
+    const size_t bytes = std::max<size_t>(sum.file.film.words.size() * sizeof(uint32_t), 1);
+    const size_t atOnce = std::clamp<size_t>(kBytesAtOnce / bytes, 1, kMostAtOnce);
+    for (size_t first = 1; first < parts_.size(); first += atOnce) {
+        std::vector<FilmFile> films(std::min(atOnce, parts_.size() - first));
+        forEachInParallel(films.size(), [&](size_t i) { films[i] = readFilmFile(parts_[first + i]); });
+        for (size_t i = 0; i < films.size(); ++i) {
+            join(sum, {parts_[first + i], std::move(films[i])}, machines);
+            sum.name = fmt::format("{} to {}", parts_.front(), parts_[first + i]);
+        }
+    }
+    return sum;
+}
+
 int MergeCommand::run() {
     if (parts_.size() < 2)
         throw UsageError("merge: one image has nothing to be joined with; give two or more");
@@ -40,12 +67,7 @@ int MergeCommand::run() {
         throw UsageError(fmt::format("-o: {} is no .exr file, which parts are joined in", output_));
     requireApart(outputs, inputs);
     requireWritable(output_);
-    NamedFilm sum{parts_.front(), readFilmFile(parts_.front())};
-    const Machines machines = isStatistical_ ? Machines::any : Machines::ofOneKind;
-    for (size_t i = 1; i < parts_.size(); ++i) {
-        join(sum, {parts_[i], readFilmFile(parts_[i])}, machines);
-        sum.name = fmt::format("{} to {}", parts_.front(), parts_[i]);
-    }
+    const NamedFilm sum = joined();
     const SampleRanges& ranges = sum.file.ranges;
     if (ranges.size() > 1)
         spdlog::warn("the samples {} leave gaps: {} holds what there is", textOf(ranges), output_);

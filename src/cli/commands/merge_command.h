@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cli/command.h"
+#include "film/film_merge.h"
 
 namespace lavalight {
 
@@ -14,6 +15,8 @@ class MergeCommand : public Command {
     [[nodiscard]] int run() override;
 
   private:
+    [[nodiscard]] NamedFilm joined() const;
+
     std::vector<std::string> parts_;
     std::string output_;
     bool isStatistical_ = false;

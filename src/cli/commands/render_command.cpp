@@ -69,11 +69,13 @@ void RenderCommand::checkOptions() const {
         throw UsageError("--background: a colour is for a PNG; give -o OUT.png, or --background transparent");
     if (options_.hasTone() && outputs_.png.empty())
         throw UsageError("--tonemap and --exposure are for a PNG; give -o OUT.png, or leave them out");
-    if (options_.layers() != 0 && outputs_.exr.empty())
+    if (options_.layers() != 0 && outputs_.exr.empty() && checkpoints_.given().empty())
         throw UsageError("--aov is for an EXR; give -o OUT.exr, or leave it out");
-    if ((options_.layers() >> kMotionPlane & 1u) != 0 && !frames_.isAsked())
-        throw UsageError("--aov motion: motion leads to the next frame; give --frames or --turntable");
-    if (frames_.isAsked() && shaders_.isWatching())
+    const bool isOfSequence = frames_.isAsked() || frames_.single();
+    if ((options_.layers() >> kMotionPlane & 1u) != 0 && !isOfSequence)
+        throw UsageError(
+            "--aov motion: motion leads to the next frame; give --frames, --frame or --turntable");
+    if (isOfSequence && shaders_.isWatching())
         throw UsageError(
             "--watch renders one image over and over, --frames and --turntable several: give one "
             "of them");
@@ -129,14 +131,23 @@ int RenderCommand::run() {
         return runSequence(session);
     requireOutputs(outputs_);
     Checkpoint checkpoint(outputs_.checkpoint, checkpoints_.interval());
-    return shaders_.isWatching()
-               ? runWatching(session)
-               : renderMoment(session, {options_.scene().importOptions(), {}}, outputs_, checkpoint);
+    if (shaders_.isWatching())
+        return runWatching(session);
+    const std::optional<uint32_t> frame = frames_.single();
+    return renderMoment(session,
+                        frame ? turnTo(*frame, session) : Moment{options_.scene().importOptions(), {}},
+                        outputs_, checkpoint);
 }
 
 ImportOptions RenderCommand::momentOf(uint32_t frame) const {
     return frames_.isTurntable() ? options_.scene().importOptions()
                                  : options_.scene().importOptionsAt(frames_.range().secondsOf(frame));
+}
+
+RenderCommand::Moment RenderCommand::turnTo(uint32_t frame, RenderSession& session) const {
+    if (const std::optional<float> turns = frames_.turnsOf(frame))
+        session.turn(*turns);
+    return {momentOf(frame), RenderSession::NextMoment{momentOf(frame + 1), frames_.turnsOf(frame + 1)}};
 }
 
 int RenderCommand::runSequence(RenderSession& session) const {
@@ -145,10 +156,7 @@ int RenderCommand::runSequence(RenderSession& session) const {
         const Outputs files = outputsOf(frame);
         requireOutputs(files);
         Checkpoint none({}, {});
-        if (const std::optional<float> turns = frames_.turnsOf(frame))
-            session.turn(*turns);
-        const RenderSession::NextMoment next{momentOf(frame + 1), frames_.turnsOf(frame + 1)};
-        if (const int code = renderMoment(session, {momentOf(frame), next}, files, none); code != 0)
+        if (const int code = renderMoment(session, turnTo(frame, session), files, none); code != 0)
             return code;
     }
     return 0;

@@ -38,6 +38,8 @@ class RenderCommand : public Command {
         std::optional<RenderSession::NextMoment> next;
     };
     [[nodiscard]] ImportOptions momentOf(uint32_t frame) const;
+    // A frame and what follows it, once the session has turned to it.
+    [[nodiscard]] Moment turnTo(uint32_t frame, RenderSession& session) const;
     [[nodiscard]] int renderMoment(RenderSession& session, const Moment& moment, const Outputs& outputs,
                                    Checkpoint& checkpoint) const;
     void finishImage(RenderSession& session, RenderJob& job, const Outputs& outputs) const;

@@ -1,6 +1,7 @@
 #include "cli/options/checkpoint_options.h"
 
 #include <filesystem>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -33,8 +34,9 @@ std::string CheckpointOptions::file(const RenderSettings& settings) const {
     if (settings.stop.seconds > 0.0)
         throw UsageError("--checkpoint and --time: what a time suffices for cannot be had a second time, bit "
                          "for bit; give one of the two (an interrupted render writes its checkpoint)");
+    const bool isFrame = parser_->count("--frame") > 0;
     for (const char* option : {"--frames", "--turntable", "--watch"})
-        if (parser_->count(option) > 0)
+        if (parser_->count(option) > 0 && !(isFrame && option == std::string_view("--turntable")))
             throw UsageError(fmt::format("--checkpoint and {}: a checkpoint is of one image", option));
     std::error_code unknown;
     if (!isResuming_ && std::filesystem::is_regular_file(file_, unknown))

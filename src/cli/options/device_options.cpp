@@ -34,9 +34,8 @@ DeviceOptions::DeviceOptions(CLI::App& parser) {
     const std::map<std::string, gpu::RequiredDevice> kinds{{"any", gpu::RequiredDevice::any},
                                                            {"cpu", gpu::RequiredDevice::cpu},
                                                            {"gpu", gpu::RequiredDevice::gpu}};
-    parser.add_option("--require-device", config_.required, "Refuse to run on another kind of device")
+    addOneOf(parser, "--require-device", config_.required, kinds, "Refuse to run on another kind of device")
         ->type_name("any|cpu|gpu")
-        ->transform(oneOf(kinds))
         ->default_str("any");
     parser
         .add_option_function<unsigned>(

@@ -27,15 +27,33 @@ FrameOptions::FrameOptions(CLI::App& parser) : parser_(&parser) {
         ->type_name("N")
         ->check(CLI::Range(1u, kMostFrames))
         ->default_str("");
-    parser.add_option("--fps", framesPerSecond_, "Frames a second of --frames")->type_name("N");
+    parser
+        .add_option("--frame", frame_,
+                    "Render frame N of the animation, or of --turntable, alone, into the file as it is named")
+        ->type_name("N")
+        ->default_str("");
+    parser.add_option("--fps", framesPerSecond_, "Frames a second of --frames and --frame")->type_name("N");
 }
 
 bool FrameOptions::isAsked() const {
-    if (parser_->count("--fps") > 0 && frames_.empty())
-        throw UsageError("--fps: needs --frames A:B");
+    const bool isSingle = parser_->count("--frame") > 0;
+    if (parser_->count("--fps") > 0 && frames_.empty() && (!isSingle || isTurntable()))
+        throw UsageError("--fps: needs --frames A:B or --frame N of an animation");
+    if (isSingle && !frames_.empty())
+        throw UsageError(
+            "--frame and --frames: one is a frame alone, the other several; give one of the two");
     if (isTurntable() && !frames_.empty())
         throw UsageError("--turntable and --frames: both make several images; give one of the two");
-    return isTurntable() || !frames_.empty();
+    return !isSingle && (isTurntable() || !frames_.empty());
+}
+
+std::optional<uint32_t> FrameOptions::single() const {
+    if (parser_->count("--frame") == 0)
+        return std::nullopt;
+    const uint32_t end = isTurntable() ? turntable_ : kMostFrames;
+    if (frame_ >= end)
+        throw UsageError(fmt::format("--frame: {} is not a frame below {}", frame_, end));
+    return frame_;
 }
 
 std::optional<float> FrameOptions::turnsOf(uint32_t frame) const {
@@ -43,17 +61,23 @@ std::optional<float> FrameOptions::turnsOf(uint32_t frame) const {
                          : std::nullopt;
 }
 
+void FrameOptions::requireRate() const {
+    if (!(framesPerSecond_ > 0.0) || !std::isfinite(framesPerSecond_))
+        throw UsageError(fmt::format("--fps: {} is not a rate above 0", framesPerSecond_));
+}
+
 FrameRange FrameOptions::range() const {
+    requireRate();
     if (isTurntable())
         return {0, turntable_, framesPerSecond_};
+    if (frames_.empty())
+        return {frame_, frame_ + 1, framesPerSecond_};
     const auto parts = splitAt(frames_, ':');
     const auto first = parseNumber<uint32_t>(parts.front());
     const auto end = parseNumber<uint32_t>(parts.back());
     if (parts.size() != 2 || !first || !end || *first >= *end || *end > kMostFrames)
         throw UsageError(
             fmt::format("--frames: \"{}\" is not A:B with A below B and B up to {}", frames_, kMostFrames));
-    if (!(framesPerSecond_ > 0.0) || !std::isfinite(framesPerSecond_))
-        throw UsageError(fmt::format("--fps: {} is not a rate above 0", framesPerSecond_));
     return {*first, *end, framesPerSecond_};
 }
 

@@ -13,21 +13,23 @@
 
 namespace lavalight {
 
-// A validator that takes one of the names, whatever their case, and hands on the value's number, which is
-// what the parser stores.
+// An option whose value is one of these names, whatever their case. What the parser keeps is the word, so
+// that it can be written again (cli/options/given_options.h).
 template <typename Value>
-[[nodiscard]] CLI::Validator oneOf(const std::map<std::string, Value>& values) {
+CLI::Option* addOneOf(CLI::App& parser, const std::string& option, Value& value,
+                      const std::map<std::string, Value>& values, const std::string& help) {
     std::vector<std::string> names;
-    for (const auto& [name, value] : values)
+    for (const auto& [name, ofName] : values)
         names.push_back(name);
-    const auto replaceName = [values, names](std::string& text) -> std::string {
-        const auto found = values.find(CLI::detail::to_lower(text));
-        if (found == values.end())
-            return fmt::format("{} not in {{{}}}", text, fmt::join(names, ","));
-        text = std::to_string(static_cast<uint32_t>(found->second));
-        return {};
+    const auto check = [values, names](const std::string& text) {
+        return values.contains(CLI::detail::to_lower(text))
+                   ? std::string()
+                   : fmt::format("{} not in {{{}}}", text, fmt::join(names, ","));
     };
-    return {replaceName, ""};
+    const auto take = [&value, values](const std::string& text) {
+        value = values.at(CLI::detail::to_lower(text));
+    };
+    return parser.add_option_function<std::string>(option, take, help)->check(CLI::Validator(check, ""));
 }
 
 // An option for a setting with named values; its help and its errors list the names.
@@ -39,10 +41,7 @@ void addNamed(CLI::App& parser, const std::string& option, Value& value, const s
         values.emplace(name.name, name.value);
         names += fmt::format("{}{}", names.empty() ? "" : "|", name.name);
     }
-    parser.add_option(option, value, help)
-        ->type_name(names)
-        ->transform(oneOf(values))
-        ->default_str(std::string(nameOf(value)));
+    addOneOf(parser, option, value, values, help)->type_name(names)->default_str(std::string(nameOf(value)));
 }
 
 } // namespace lavalight

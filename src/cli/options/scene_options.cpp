@@ -49,7 +49,7 @@ ImportOptions SceneOptions::importOptions() const {
 
 ImportOptions SceneOptions::importOptionsAt(double seconds) const {
     if (parser_->count("--at") > 0)
-        throw UsageError("--at: is one time, and --frames are many; give one of the two");
+        throw UsageError("--at: frames have times of their own; give --at, or --frames or --frame");
     ImportOptions options = options_;
     options.seconds = seconds;
     return options;

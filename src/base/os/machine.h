@@ -1,4 +1,4 @@
-// Which kind of processor this machine has.
+// Which machine this is, and which kind of processor it has.
 #pragma once
 
 #include <string>
@@ -12,5 +12,8 @@ namespace lavalight {
 
 // The same from the text of /proc/cpuinfo; empty where it does not say them.
 [[nodiscard]] std::string processorKindIn(const std::string& cpuinfo);
+
+// The machine's name in its network, as far as it may stand in a file's name.
+[[nodiscard]] std::string hostName();
 
 } // namespace lavalight

@@ -1,7 +1,7 @@
 // What is read of a processor's description.
 #include <gtest/gtest.h>
 
-#include "base/os/processor.h"
+#include "base/os/machine.h"
 
 namespace lavalight {
 namespace {

@@ -1,5 +1,6 @@
-#include "base/os/processor.h"
+#include "base/os/machine.h"
 
+#include <cctype>
 #include <fstream>
 #include <iterator>
 #include <map>
@@ -53,6 +54,13 @@ std::string processorKind() {
     if (kind.empty() && uname(&name) == 0)
         kind = name.machine;
     return kind;
+}
+
+std::string hostName() {
+    utsname name{};
+    std::string text = uname(&name) == 0 ? name.nodename : "";
+    std::erase_if(text, [](unsigned char c) { return std::isalnum(c) == 0 && c != '-' && c != '.'; });
+    return text.empty() ? "host" : text;
 }
 
 } // namespace lavalight

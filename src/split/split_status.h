@@ -1,0 +1,40 @@
+// How far a split render is, by the files of its folder.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace lavalight {
+
+enum class PartState {
+    done,
+    running,
+    stopped, // began, and has shown no sign of life for three intervals of its checkpoint
+    missing
+};
+
+struct PartStatus {
+    std::string name;
+    PartState state = PartState::missing;
+    double fraction = 0.0;         // by the newest checkpoint; 1 where it is done
+    double secondsSinceSign = 0.0; // since the checkpoint, of those that run or stopped
+    std::string host;              // that runs it, or ran it
+};
+
+struct SplitStatus {
+    std::string folder;
+    std::vector<PartStatus> parts; // in the order of their numbers
+    std::optional<double>
+        secondsLeft; // with as many parts at once as now; none: nothing runs, or nothing is known yet
+    [[nodiscard]] size_t count(PartState state) const;
+};
+
+// Throws Error for a folder that `lavalight split` has not written.
+[[nodiscard]] SplitStatus statusOf(const std::filesystem::path& folder);
+
+[[nodiscard]] std::string textOf(const SplitStatus& status);
+[[nodiscard]] std::string jsonOf(const SplitStatus& status);
+
+} // namespace lavalight
