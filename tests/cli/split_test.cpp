@@ -87,9 +87,11 @@ TEST_F(Split, ColouredBackgroundsReachThePng) {
 }
 
 TEST_F(Split, FramesOfATurntableAreJoinedOneByOne) {
-    split({"cornell-box", "--parts", "2", "--size", "16x12", "--spp", "4", "--turntable", "2"});
+    split({"cornell-box", "--parts", "2", "--size", "16x12", "--spp", "4", "--turntable", "2", "--png"});
     ASSERT_EQ(run("run.sh"), 0) << log();
-    render({"cornell-box", "--size", "16x12", "--samples", "0:4", "--turntable", "2", "-o", "whole.exr"});
+    render({"cornell-box", "--size", "16x12", "--samples", "0:4", "--turntable", "2", "-o", "whole.exr", "-o",
+            "whole.png"});
+    EXPECT_EQ(readFile(folder_ / "job/merged_0001.png"), readFile(folder_ / "whole_0001.png"));
     expectSameFilm("job/merged_0000.exr", "whole_0000.exr");
     expectSameFilm("job/merged_0001.exr", "whole_0001.exr");
 }

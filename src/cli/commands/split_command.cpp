@@ -148,10 +148,9 @@ SplitPlan SplitCommand::plan() const {
     std::set<std::string> ofNoPart = ofSplit;
     ofNoPart.insert(ofPictures.begin(), ofPictures.end());
     plan.words = wordsGiven(parser(), ofNoPart);
-    for (const std::string& name : ofPictures)
-        if (parser().count("--" + name) > 0)
-            plan.pictureWords.insert(plan.pictureWords.end(),
-                                     {"--" + name, parser().get_option("--" + name)->results().front()});
+    for (const std::string& word : wordsGiven(parser(), ofSplit))
+        if (ofPictures.contains(word.substr(2, word.find('=') - 2)))
+            plan.pictureWords.push_back(word);
     if (options_.hasBackdrop())
         plan.partWords = {"--background", "transparent"};
     return plan;
