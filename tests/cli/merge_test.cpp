@@ -2,12 +2,17 @@
 #include <algorithm>
 #include <map>
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "base/file.h"
 #include "support/film_files.h"
 #include "support/run_program.h"
 #include "support/same_image.h"
+#include "support/spawn.h"
 #include "support/temporary_folder.h"
 #include "unit/gltf/builder.h"
 
@@ -164,6 +169,57 @@ TEST_F(Merge, WhatASceneHoldsCountsAndNotItsName) {
     render("2:4", "c.exr", {"--look-from", "0,0,5", "--look-at", "0,0,0"}, "b.glb");
     render("4:6", "d.exr", {"--look-from", "0,0,5", "--look-at", "0,0,0"}, "a.glb");
     expectUnmergeable("c.exr", "d.exr", "geometry (content ");
+}
+
+TEST_F(Merge, KindsOfMachineAreJoinedOnlyWhenAsked) {
+    render("0:2", "a.exr");
+    render("2:4", "b.exr");
+    FilmFile other = readFilmFile(at("b.exr"));
+    setValue(other.metadata, "processor", "another");
+    writeFilmFile(at("b.exr"), other);
+    expectUnmergeable("a.exr", "b.exr", "try --statistical");
+    const ProgramResult result = run({"merge", "--statistical", "a.exr", "b.exr", "-o", "ab.exr"});
+    EXPECT_EQ(result.exitCode, 0) << result.err;
+    EXPECT_NE(result.out.find("mixed-machines: 600 samples by "), std::string::npos) << result.out;
+    render("0:4", "whole.exr");
+    EXPECT_EQ(readFilmFile(at("ab.exr")).film.words, readFilmFile(at("whole.exr")).film.words);
+}
+
+// A film of one sample of many pixels.
+FilmFile sampleOfMany(uint32_t sample) {
+    constexpr uint32_t kSide = 96;
+    FilmFile film = test::someFilm(1, {sample, sample + 1});
+    film.film.width = film.film.height = kSide;
+    film.film.words.assign(film.film.layout.words() * film.film.pixels(), 1);
+    return film;
+}
+
+// The most memory that a merge of so many parts took, in kilobytes.
+long peakOfMerge(const std::filesystem::path& folder, uint32_t parts) {
+    std::vector<std::string> words{LAVALIGHT_BINARY, "merge", "-o", "whole.exr"};
+    for (uint32_t i = 0; i < parts; ++i)
+        words.push_back("part" + std::to_string(i) + ".exr");
+    test::Spawn merge;
+    merge.workIn(folder.string());
+    merge.open(STDOUT_FILENO, "/dev/null", O_WRONLY);
+    const pid_t process = merge.start(words);
+    int status = -1;
+    rusage usage{};
+    EXPECT_EQ(::wait4(process, &status, 0, &usage), process);
+    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
+    return usage.ru_maxrss;
+}
+
+TEST_F(Merge, MemoryDoesNotGrowWithTheNumberOfParts) {
+    constexpr uint32_t kFew = 40;
+    constexpr uint32_t kMany = 400;
+    for (uint32_t i = 0; i < kMany; ++i)
+        writeFilmFile(at("part" + std::to_string(i) + ".exr"), sampleOfMany(i));
+    const long few = peakOfMerge(folder_.path(), kFew);
+    const long many = peakOfMerge(folder_.path(), kMany);
+    const size_t film = sampleOfMany(0).film.words.size() * sizeof(uint32_t) / 1024;
+    EXPECT_LT(many - few, static_cast<long>((kMany - kFew) * film / 20)) << few << " kB, then " << many;
+    EXPECT_EQ(textOf(readFilmFile(at("whole.exr")).ranges), "0:400");
 }
 
 TEST_F(Merge, UsageThatCannotBeMeant) {
