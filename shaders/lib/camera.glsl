@@ -24,7 +24,7 @@ float cameraRayEnd(FrameParameters parameters, vec3 direction) {
 // on the lens.
 Ray cameraRay(FrameParameters parameters, vec2 position, vec2 lens) {
     const vec2 uv = position / vec2(parameters.imageWidth, parameters.imageHeight);
-    const vec2 ndc = 2.0 * uv - 1.0;
+    const vec2 ndc = 2.0 * uv - vec2(parameters.axisX, parameters.axisY); // 0 on the axis of the view
     const vec3 onPlane = ndc.x * parameters.cameraRight - ndc.y * parameters.cameraUp;
     vec3 origin = parameters.cameraPosition;
     vec3 direction = normalize(parameters.cameraForward + onPlane);
@@ -43,21 +43,22 @@ Ray cameraRay(FrameParameters parameters, vec2 position, vec2 lens) {
 }
 
 // Where a pinhole camera with these vectors of `parameters` shows a point: a share of the image's sides from its top left
-// corner. Points behind the camera have no such place.
-vec2 placeInImage(vec3 toPoint, vec3 right, vec3 up, vec3 forward) {
+// corner; `axis` as axisX and axisY of the parameters. Points behind the camera have no such place.
+vec2 placeInImage(vec2 axis, vec3 toPoint, vec3 right, vec3 up, vec3 forward) {
     if (sceneHas(kFeaturePanorama))
         return directionToEquirectangular(normalize(toPoint));
     const float depth = sceneHas(kFeatureOrthographic) ? 1.0 : dot(toPoint, forward);
     const vec2 ndc = vec2(dot(toPoint, right) / dot(right, right), -dot(toPoint, up) / dot(up, up)) / depth;
-    return 0.5 * ndc + 0.5;
+    return 0.5 * ndc + 0.5 * axis;
 }
 
 // How far a point moves to the next frame, in pixels to the right and down. Panoramas are round.
 vec2 pixelMotion(FrameParameters parameters, vec3 now, vec3 next) {
-    const vec2 from =
-        placeInImage(now - parameters.cameraPosition, parameters.cameraRight, parameters.cameraUp, parameters.cameraForward);
+    const vec2 axis = vec2(parameters.axisX, parameters.axisY);
+    const vec2 from = placeInImage(axis, now - parameters.cameraPosition, parameters.cameraRight, parameters.cameraUp,
+                                   parameters.cameraForward);
     const vec2 to =
-        placeInImage(next - parameters.nextPosition, parameters.nextRight, parameters.nextUp, parameters.nextForward);
+        placeInImage(axis, next - parameters.nextPosition, parameters.nextRight, parameters.nextUp, parameters.nextForward);
     vec2 way = to - from;
     if (sceneHas(kFeaturePanorama))
         way.x -= round(way.x);

@@ -59,9 +59,9 @@ struct FrameParameters {
     vec3 nextRight;
     float groundHeight; // y of the plane that catches shadows
     vec3 nextUp;
-    uint unused2;
+    float axisX; // where the axis of the view meets the image, in halves of its sides from the top left: 1 is the middle
     vec3 nextForward;
-    uint unused3;
+    float axisY;
 };
 
 // Intervals of filterNodes, whose last node ends the last of them.

@@ -22,9 +22,9 @@ constexpr std::string_view kNoValue = "none";
 constexpr std::array<std::string_view, 6> kFreeOptions{"spp",          "first-sample", "time",
                                                        "target-error", "wave-size",    "crop"};
 // Options that say where something comes from: its content is what counts.
-constexpr std::array<std::string_view, 14> kSources{"env",      "look-from", "look-at",  "up",      "fov",
-                                                    "aperture", "focus",     "panorama", "no-clip", "shaders",
-                                                    "at",       "animation", "scene",    "variant"};
+constexpr std::array<std::string_view, 16> kSources{
+    "env",      "look-from", "look-at", "up",      "fov", "intrinsics", "aperture", "focus",
+    "panorama", "clip",      "no-clip", "shaders", "at",  "animation",  "scene",    "variant"};
 
 template <size_t N>
 bool isOneOf(const std::array<std::string_view, N>& names, std::string_view name) {

@@ -27,7 +27,7 @@ enum class TextureFilter : uint32_t {
     stochastic = kTextureFilterStochastic
 };
 
-enum class PixelFilter : uint32_t { box, tent, gaussian, blackmanHarris, mitchell };
+enum class PixelFilter : uint32_t { box, tent, gaussian, blackmanHarris, mitchell, point };
 
 // Two renders of one scene with equal EstimatorSettings have equal bits.
 struct EstimatorSettings {

@@ -73,6 +73,8 @@ FrameParameters makeFrame(const Scene& scene, const Camera& camera, const Render
     frame.cameraRight = camera.right * view.halfWidth;
     frame.cameraUp = camera.up * view.halfHeight;
     frame.cameraForward = camera.forward;
+    frame.axisX = 1.0f - view.middleRight / view.halfWidth;
+    frame.axisY = 1.0f + view.middleUp / view.halfHeight;
     frame.clipNear = clip.nearest;
     frame.clipDepth = clip.depth;
     frame.lensRadius = camera.lensRadius;

@@ -22,6 +22,8 @@ float ownRadius(PixelFilter filter) {
         return 1.5f;
     case PixelFilter::mitchell:
         return 2.0f;
+    case PixelFilter::point:
+        return 0.0f;
     }
     return 0.5f;
 }
@@ -56,7 +58,8 @@ double mitchell(double x) {
 } // namespace
 
 float filterRadius(const EstimatorSettings& settings) {
-    return std::isfinite(settings.filterRadius) ? settings.filterRadius : ownRadius(settings.pixelFilter);
+    const bool isOwn = !std::isfinite(settings.filterRadius) || settings.pixelFilter == PixelFilter::point;
+    return isOwn ? ownRadius(settings.pixelFilter) : settings.filterRadius;
 }
 
 bool isUnitBox(const EstimatorSettings& settings) {
@@ -72,6 +75,7 @@ double filterValue(PixelFilter filter, double x) {
         return 0.0;
     switch (filter) {
     case PixelFilter::box:
+    case PixelFilter::point: // a box without size
         return 1.0;
     case PixelFilter::tent:
         return 1.0 - x;

@@ -40,10 +40,9 @@ Fingerprints fingerprintsOf(const Renderer& renderer) {
                        hashOf(f.environment, f.environmentLight, f.environmentRotation, f.environmentWidth,
                               f.environmentHeight, f.firstLightColumn, f.lightColumns, f.hasBackground,
                               f.background, f.sunDirection, f.sunRadiance, f.sunSize, f.sunShare));
-    // cameraRight follows from the others and the image's size.
-    parts.emplace_back("view",
-                       hashOf(f.cameraPosition, f.projection, f.cameraUp, f.cameraForward, f.lensRadius,
-                              f.focusDistance, f.clipNear, f.clipDepth, f.sceneCenter, f.sceneRadius));
+    parts.emplace_back("view", hashOf(f.cameraPosition, f.projection, f.cameraRight, f.cameraUp,
+                                      f.cameraForward, f.axisX, f.axisY, f.lensRadius, f.focusDistance,
+                                      f.clipNear, f.clipDepth, f.sceneCenter, f.sceneRadius));
     if (f.catchesShadows != 0)
         parts.emplace_back("ground", hashOf(f.groundHeight));
     parts.emplace_back("shaders", shadersOf(renderer));

@@ -38,10 +38,10 @@ constexpr std::array kFresnels{named("exact", Fresnel::exact), named("schlick", 
 constexpr std::array kTextureFilters{named("bilinear", TextureFilter::bilinear),
                                      named("stochastic", TextureFilter::stochastic)};
 
-constexpr std::array kPixelFilters{named("box", PixelFilter::box), named("tent", PixelFilter::tent),
-                                   named("gaussian", PixelFilter::gaussian),
-                                   named("blackman-harris", PixelFilter::blackmanHarris),
-                                   named("mitchell", PixelFilter::mitchell)};
+constexpr std::array kPixelFilters{
+    named("box", PixelFilter::box),           named("tent", PixelFilter::tent),
+    named("gaussian", PixelFilter::gaussian), named("blackman-harris", PixelFilter::blackmanHarris),
+    named("mitchell", PixelFilter::mitchell), named("point", PixelFilter::point)};
 
 template <auto member>
 constexpr NamedValues oneOf(std::span<const Name> names, std::optional<uint32_t> constant) {
@@ -198,7 +198,8 @@ constexpr std::array kRows{
         .mayChangeMean = true,
         .help =
             "Pixel filter: how a pixel weighs the light around its middle. Samples are drawn by it, so that "
-            "pixels stay independent; mitchell has negative lobes, which sharpen",
+            "pixels stay independent; mitchell has negative lobes, which sharpen; point sees the middle "
+            "alone",
         .panelLabel = "pixel filter",
         .panelHelp = "How a pixel weighs the light around its middle: wider filters are smoother, and edges "
                      "have fewer stairs"},
@@ -209,9 +210,10 @@ constexpr std::array kRows{
         .decidesBits = true,
         .mayChangeMean = true,
         .help = "Pixels from the middle to where the filter ends; own: 0.5 of box, 1 of tent, 2 of mitchell, "
-                "1.5 of the others",
+                "1.5 of the others; always 0 of point",
         .panelLabel = "filter radius",
-        .panelHelp = "Pixels from the middle to where the filter ends"},
+        .panelHelp = "Pixels from the middle to where the filter ends",
+        .applies = [](const E& s) { return s.pixelFilter != PixelFilter::point; }},
     SettingRow{.name = "seed",
                .values = WholeNumber{&E::seed, 0, std::numeric_limits<uint32_t>::max(), 1'000'000},
                .decidesBits = true,

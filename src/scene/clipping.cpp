@@ -32,17 +32,17 @@ struct Polygon {
 ViewPart viewBetween(const Camera& camera, const ViewExtent& view, double nearest, double farthest) {
     const double lens = camera.lensRadius;
     const double slope = lens > 0.0 ? lens / camera.focusDistance : 0.0;
-    const double halfWidth = view.halfWidth;
-    const double halfHeight = view.halfHeight;
     const bool isPerspective = camera.projection == Projection::perspective;
     const auto side = [&](const glm::dvec3& outwards, double half) {
         return isPerspective ? HalfSpace{outwards - glm::dvec3(0.0, 0.0, half + slope), lens}
                              : HalfSpace{outwards, half};
     };
-    return {{side({1.0, 0.0, 0.0}, halfWidth),
-             side({-1.0, 0.0, 0.0}, halfWidth),
-             side({0.0, 1.0, 0.0}, halfHeight),
-             side({0.0, -1.0, 0.0}, halfHeight),
+    const double right = view.middleRight;
+    const double up = view.middleUp;
+    return {{side({1.0, 0.0, 0.0}, view.halfWidth + right),
+             side({-1.0, 0.0, 0.0}, view.halfWidth - right),
+             side({0.0, 1.0, 0.0}, view.halfHeight + up),
+             side({0.0, -1.0, 0.0}, view.halfHeight - up),
              {{0.0, 0.0, -1.0}, -nearest},
              {{0.0, 0.0, 1.0}, farthest}}};
 }

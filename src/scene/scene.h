@@ -124,6 +124,13 @@ struct Mesh {
 // A panorama shows all directions, by the convention of environment maps.
 enum class Projection { perspective, orthographic, panorama };
 
+// The projection of a perspective camera in pixels of the image, as calibrations give it.
+struct Intrinsics {
+    glm::dvec2 focal{0.0};  // focal lengths to the right and down; equal where pixels are squares
+    glm::dvec2 center{0.0}; // principal point: where the axis of the view meets the image, from its top left
+    bool operator==(const Intrinsics&) const = default;
+};
+
 struct Camera {
     std::string name;
     Projection projection = Projection::perspective;
@@ -131,9 +138,10 @@ struct Camera {
     glm::vec3 right{1.0f, 0.0f, 0.0f}; // orthonormal, right-handed: right x up = -forward
     glm::vec3 up{0.0f, 1.0f, 0.0f};
     glm::vec3 forward{0.0f, 0.0f, -1.0f};
-    float verticalFov = 0.8f;    // perspective: full angle, radians
-    float halfHeight = 1.0f;     // orthographic: glTF's ymag, metres
-    std::optional<float> aspect; // width / height that the file asks for
+    float verticalFov = 0.8f;             // perspective: full angle, radians
+    std::optional<Intrinsics> intrinsics; // perspective: instead of verticalFov and framedAspect
+    float halfHeight = 1.0f;              // orthographic: glTF's ymag, metres
+    std::optional<float> aspect;          // width / height that the file asks for
     // What this wide an image shows stays in the picture: a narrower one shows more height. 0: it shows less
     // width.
     float framedAspect = 0.0f;

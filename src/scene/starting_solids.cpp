@@ -29,7 +29,9 @@ Corners startsOf(const Camera& camera, const ViewExtent& view, double nearest) {
     }
     if (camera.projection == Projection::panorama)
         nearest = 0.0;
-    const glm::dvec3 middle = glm::dvec3(camera.position) + nearest * glm::dvec3(camera.forward);
+    const glm::dvec3 aside =
+        double{view.middleRight} * glm::dvec3(camera.right) + double{view.middleUp} * glm::dvec3(camera.up);
+    const glm::dvec3 middle = glm::dvec3(camera.position) + nearest * (glm::dvec3(camera.forward) + aside);
     const glm::dvec3 right = halfWidth * glm::dvec3(camera.right);
     const glm::dvec3 up = halfHeight * glm::dvec3(camera.up);
     return {middle - right - up, middle + right - up, middle + right + up, middle - right + up};

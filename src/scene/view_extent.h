@@ -10,6 +10,9 @@ namespace lavalight {
 struct ViewExtent {
     float halfWidth = 0.0f;
     float halfHeight = 0.0f;
+    // Where the middle of the image lies beside the axis of the view, at distance 1 to the right and up.
+    float middleRight = 0.0f;
+    float middleUp = 0.0f;
 };
 [[nodiscard]] ViewExtent viewExtent(const Camera& camera, float width, float height);
 

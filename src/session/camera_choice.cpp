@@ -50,6 +50,9 @@ Camera frameView(const Scene& scene, const CameraChoice& choice, float aspect) {
         throw UsageError("--view and --turntable frame the scene with a camera of their own; give them "
                          "without --camera, --look-from, --look-at, --up and --panorama");
     const bool isVertical = choice.view == NamedView::top || choice.view == NamedView::bottom;
+    if (choice.intrinsics)
+        throw UsageError(
+            "--intrinsics: --view and --turntable frame the scene by a field of view; try --fov");
     if (choice.turns && isVertical)
         throw UsageError(
             "--turntable turns about the vertical; give a --view that is not from above or below");
@@ -72,9 +75,32 @@ void setFieldOfView(Camera& camera, const CameraChoice& choice) {
     camera.verticalFov = static_cast<float>(double{*choice.fov} * std::numbers::pi / 180.0);
 }
 
-void removePlanes(Camera& camera) {
-    camera.znear = Camera{}.znear;
-    camera.zfar = Camera{}.zfar;
+void setIntrinsics(Camera& camera, const CameraChoice& choice) {
+    if (!choice.intrinsics)
+        return;
+    if (choice.fov)
+        throw UsageError("--fov and --intrinsics: one is enough");
+    if (choice.panorama || camera.projection != Projection::perspective)
+        throw UsageError("--intrinsics: only perspective cameras have them");
+    for (const glm::length_t axis : {0, 1}) {
+        requireRange("--intrinsics (focal length in pixels)", choice.intrinsics->focal[axis], 1e-3, 1e9);
+        requireRange("--intrinsics (principal point in pixels)", choice.intrinsics->center[axis], -1e6, 1e6);
+    }
+    camera.intrinsics = choice.intrinsics;
+}
+
+void setPlanes(Camera& camera, const CameraChoice& choice) {
+    if (choice.clip && choice.seesAll)
+        throw UsageError("--clip and --no-clip: one is enough");
+    if (choice.clip && !(choice.clip->x >= 0.0f && choice.clip->x < choice.clip->y))
+        throw UsageError(
+            fmt::format("--clip: {},{} leaves nothing to be seen; give two distances, the nearer "
+                        "one first",
+                        choice.clip->x, choice.clip->y));
+    if (choice.clip || choice.seesAll) {
+        camera.znear = choice.clip ? choice.clip->x : Camera{}.znear;
+        camera.zfar = choice.clip ? choice.clip->y : Camera{}.zfar;
+    }
 }
 
 void setLens(Camera& camera, const Scene& scene, const CameraChoice& choice) {
@@ -109,12 +135,12 @@ Camera chooseCamera(const Scene& scene, const CameraChoice& choice, float aspect
         choice.view == NamedView::none ? pickCamera(scene, choice.name) : frameView(scene, choice, aspect);
     aim(camera, scene, choice);
     setFieldOfView(camera, choice);
+    setIntrinsics(camera, choice);
     if (choice.panorama) {
         camera.projection = Projection::panorama;
         camera.aspect = 2.0f;
     }
-    if (choice.seesAll)
-        removePlanes(camera);
+    setPlanes(camera, choice);
     setLens(camera, scene, choice);
     return camera;
 }
@@ -135,12 +161,17 @@ OptionPairs describe(const CameraChoice& choice) {
     add("look-at", vector(choice.lookAt));
     add("up", vector(choice.up));
     add("fov", number(choice.fov));
+    if (const auto& intrinsics = choice.intrinsics)
+        add("intrinsics", fmt::format("{},{},{},{}", intrinsics->focal.x, intrinsics->focal.y,
+                                      intrinsics->center.x, intrinsics->center.y));
     if (choice.view != NamedView::none)
         add("view", std::string(nameOf(choice.view)));
     add("turns", number(choice.turns));
     add("aperture", choice.aperture > 0.0f ? number(choice.aperture) : std::nullopt);
     add("focus", number(choice.focus));
     add("panorama", choice.panorama ? std::optional<std::string>("on") : std::nullopt);
+    add("clip",
+        choice.clip ? std::optional(fmt::format("{},{}", choice.clip->x, choice.clip->y)) : std::nullopt);
     add("no-clip", choice.seesAll ? std::optional<std::string>("on") : std::nullopt);
     return pairs;
 }

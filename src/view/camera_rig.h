@@ -42,7 +42,10 @@ class CameraRig {
     void moveOrigin(const glm::dvec3& origin);
     void setLens(float radius) { camera_.lensRadius = radius; }
     void setFocusDistance(float metres) { camera_.focusDistance = metres; }
-    void setVerticalFov(float radians) { camera_.verticalFov = radians; }
+    void setVerticalFov(float radians) {
+        camera_.verticalFov = radians;
+        camera_.intrinsics.reset();
+    }
 
   private:
     void turn(const glm::vec2& angles, const glm::vec3& about);

@@ -1,4 +1,4 @@
-// Cameras with a lens, and panoramas, against closed forms.
+// Cameras with a lens, with intrinsics, and panoramas, against closed forms.
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -78,6 +78,63 @@ TEST_F(LensTest, OutOfFocusALampIsADiskAsWideAsTheCircleOfConfusion) {
 TEST_F(LensTest, InFocusALampIsAsSharpAsThroughAPinhole) {
     const Spot spot = photograph(kLampDistance, kLensRadius);
     EXPECT_EQ(spot.within(3.5), spot.total);
+}
+
+class IntrinsicsTest : public DeviceTest {};
+
+// A wall at z = -4: the middle of a pixel sees it where similar triangles say.
+TEST_F(IntrinsicsTest, TheMiddleOfEachPixelSeesWhatItsRayMeets) {
+    constexpr double kDistance = 4.0;
+    const Intrinsics intrinsics{{40.0, 25.0}, {9.0, 21.5}};
+    Camera camera = lookAt({0, 0, 0}, {0, 0, -1}, 1.0f);
+    camera.intrinsics = intrinsics;
+    const Scene scene = SceneBuilder()
+                            .add(rectangle({0, 0, -4}, {100, 0, 0}, {0, 100, 0}), lambert(glm::vec3(0.5f)))
+                            .camera(camera)
+                            .build();
+    for (const Schedule schedule : schedulesOf(device())) {
+        SCOPED_TRACE(static_cast<int>(schedule));
+        RenderSettings settings = imageSettings(24, 16, 3);
+        settings.work.schedule = schedule;
+        settings.estimator.pixelFilter = PixelFilter::point;
+        settings.layers = 1u << kPositionPlane | 1u << kDepthPlane;
+        const Rendering image = renderScene(device(), scene, settings).rendering;
+        for (uint32_t y = 0; y < 16; ++y)
+            for (uint32_t x = 0; x < 24; ++x) {
+                const glm::vec3 seen = image.find("position")->mean.at(x, y);
+                const glm::dvec2 pixel(x + 0.5, y + 0.5);
+                const glm::dvec2 slope = (pixel - intrinsics.center) / intrinsics.focal;
+                EXPECT_NEAR(seen.x, kDistance * slope.x, 2e-6) << x << ", " << y;
+                EXPECT_NEAR(seen.y, -kDistance * slope.y, 2e-6) << x << ", " << y;
+                EXPECT_NEAR(image.find("depth")->mean.at(x, y).x, kDistance, 1e-6);
+            }
+    }
+}
+
+// A wall that comes nearer moves every point away from the axis of the view, by as much as it lies beside it.
+TEST_F(IntrinsicsTest, MotionIsMeasuredFromTheAxisOfTheView) {
+    Camera camera = lookAt({0, 0, 0}, {0, 0, -1}, 1.0f);
+    camera.intrinsics = Intrinsics{{20.0, 30.0}, {5.0, 11.0}};
+    Scene scene = SceneBuilder()
+                      .add(rectangle({0, 0, -4}, {100, 0, 0}, {0, 100, 0}), lambert(glm::vec3(0.5f)))
+                      .camera(camera)
+                      .build();
+    NextFrame next{{}, camera};
+    for (const Mesh& mesh : scene.meshes) {
+        next.positions.push_back(mesh.positions);
+        for (glm::vec3& position : next.positions.back())
+            position.z = -2.0f;
+    }
+    scene.next = next;
+    RenderSettings settings = imageSettings(16, 16, 1);
+    settings.estimator.pixelFilter = PixelFilter::point;
+    settings.layers = 1u << kMotionPlane;
+    const Rendering image = renderScene(device(), scene, settings).rendering;
+    for (uint32_t y = 0; y < 16; ++y)
+        for (uint32_t x = 0; x < 16; ++x) {
+            EXPECT_NEAR(image.find("motion")->mean.at(x, y).x, x + 0.5 - 5.0, 1e-4);
+            EXPECT_NEAR(image.find("motion")->mean.at(x, y).y, y + 0.5 - 11.0, 1e-4);
+        }
 }
 
 class PanoramaTest : public DeviceTest {};

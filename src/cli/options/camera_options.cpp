@@ -12,13 +12,14 @@ namespace lavalight {
 namespace {
 
 // An option that was not given has an empty text; so has one that was given as "".
-template <typename Number>
-std::optional<glm::vec<3, Number>> vectorOf(const CLI::Option& option, const std::string& text) {
+template <typename Number, glm::length_t Length = 3>
+std::optional<glm::vec<Length, Number>> vectorOf(const CLI::Option& option, const std::string& text) {
     if (option.count() == 0)
         return std::nullopt;
-    const auto vector = parseVector<Number>(text);
+    const auto vector = parseVector<Number, Length>(text);
     if (!vector)
-        throw UsageError(fmt::format("{}: \"{}\" is not X,Y,Z", option.get_name(), text));
+        throw UsageError(
+            fmt::format("{}: \"{}\" is not {}", option.get_name(), text, option.get_type_name()));
     return vector;
 }
 
@@ -36,6 +37,12 @@ CameraOptions::CameraOptions(CLI::App& parser) : parser_(&parser) {
         "Frame the scene from there, whatever cameras it has: every vertex is in the image, with a margin");
     parser.add_option("--fov", choice_.fov, "Vertical field of view, above 0 and below 180")
         ->type_name("DEGREES");
+    parser
+        .add_option(
+            "--intrinsics", intrinsics_,
+            "Focal lengths and principal point in pixels, instead of a field of view; the point counts "
+            "from the image's top left corner, 0.5 more than from the middle of its first pixel")
+        ->type_name("FX,FY,CX,CY");
     parser.add_option("--aperture", choice_.aperture, "Diameter of the lens; 0: all is sharp")
         ->type_name("METRES");
     parser
@@ -45,6 +52,11 @@ CameraOptions::CameraOptions(CLI::App& parser) : parser_(&parser) {
         ->type_name("METRES");
     parser.add_flag("--panorama", choice_.panorama,
                     "All directions around the camera, laid out as environment maps are");
+    parser
+        .add_option("--clip", clip_,
+                    "See what lies between these distances along the view, instead of between the planes of "
+                    "the camera")
+        ->type_name("NEAR,FAR");
     parser.add_flag("--no-clip", choice_.seesAll,
                     "See what is nearer than the camera's znear or beyond its zfar, too");
 }
@@ -54,6 +66,9 @@ CameraChoice CameraOptions::choice() const {
     choice.lookFrom = vectorOf<double>(*parser_->get_option("--look-from"), from_);
     choice.lookAt = vectorOf<double>(*parser_->get_option("--look-at"), at_);
     choice.up = vectorOf<float>(*parser_->get_option("--up"), up_);
+    if (const auto numbers = vectorOf<double, 4>(*parser_->get_option("--intrinsics"), intrinsics_))
+        choice.intrinsics = Intrinsics{{numbers->x, numbers->y}, {numbers->z, numbers->w}};
+    choice.clip = vectorOf<float, 2>(*parser_->get_option("--clip"), clip_);
     return choice;
 }
 

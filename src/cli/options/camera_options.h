@@ -25,6 +25,8 @@ class CameraOptions {
     std::string from_;
     std::string at_;
     std::string up_;
+    std::string intrinsics_;
+    std::string clip_;
     CameraChoice choice_; // the values that need no parsing
 };
 

@@ -18,14 +18,14 @@ namespace lavalight {
 // 0xrrggbb of "#rrggbb", or nothing.
 [[nodiscard]] std::optional<uint32_t> parseHexColor(std::string_view text);
 
-// The vector that "X,Y,Z" stands for, all finite in single precision, or nothing.
-template <typename Number>
-[[nodiscard]] std::optional<glm::vec<3, Number>> parseVector(std::string_view text) {
+// The vector that "X,Y,Z" or so many numbers stand for, all finite in single precision, or nothing.
+template <typename Number, glm::length_t Length = 3>
+[[nodiscard]] std::optional<glm::vec<Length, Number>> parseVector(std::string_view text) {
     const auto parts = splitAt(text, ',');
-    if (parts.size() != 3)
+    if (parts.size() != Length)
         return std::nullopt;
-    glm::vec<3, Number> vector(0);
-    for (size_t i = 0; i < 3; ++i) {
+    glm::vec<Length, Number> vector(0);
+    for (size_t i = 0; i < Length; ++i) {
         const auto value = parseNumber<Number>(parts[i]);
         if (!value || !std::isfinite(static_cast<float>(*value)))
             return std::nullopt;

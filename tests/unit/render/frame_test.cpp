@@ -84,6 +84,54 @@ TEST(Frame, OrthographicSpansTheCamerasHeight) {
     expectNear(frame.cameraRight, 5.0f * camera.right);
 }
 
+TEST(Frame, TheAxisOfAViewMeetsTheMiddleOfTheImage) {
+    const FrameParameters frame = makeFrame(Scene(), tiltedCamera(), sized(200, 100));
+    EXPECT_EQ(frame.axisX, 1.0f);
+    EXPECT_EQ(frame.axisY, 1.0f);
+}
+
+TEST(Frame, IntrinsicsInTheMiddleAreAFieldOfView) {
+    Camera camera = tiltedCamera();
+    const double focal = 50.0 / std::tan(0.5 * camera.verticalFov);
+    const FrameParameters expected = makeFrame(Scene(), camera, sized(200, 100));
+    camera.verticalFov = 2.0f; // of no account
+    camera.framedAspect = 7.0f;
+    camera.intrinsics = Intrinsics{{focal, focal}, {100.0, 50.0}};
+    const FrameParameters frame = makeFrame(Scene(), camera, sized(200, 100));
+    expectNear(frame.cameraRight, expected.cameraRight);
+    expectNear(frame.cameraUp, expected.cameraUp);
+    EXPECT_EQ(frame.axisX, 1.0f);
+    EXPECT_EQ(frame.axisY, 1.0f);
+}
+
+// A pixel is 1 / focal length wide at distance 1.
+TEST(Frame, IntrinsicsHavePixelsOfTheirOwnShapeAndAnAxisOfTheirOwn) {
+    Camera camera = tiltedCamera();
+    camera.intrinsics = Intrinsics{{400.0, 250.0}, {50.0, 75.0}};
+    const FrameParameters frame = makeFrame(Scene(), camera, sized(200, 100));
+    expectNear(frame.cameraRight, 100.0f / 400.0f * camera.right);
+    expectNear(frame.cameraUp, 50.0f / 250.0f * camera.up);
+    EXPECT_FLOAT_EQ(frame.axisX, 0.5f);
+    EXPECT_FLOAT_EQ(frame.axisY, 1.5f);
+}
+
+// Before the near plane, and seen only where the view reaches farther to the right than to the left.
+TEST(Frame, WhatAnOffCentreViewShowsIsClipped) {
+    Scene scene;
+    scene.materials.emplace_back();
+    scene.meshes.push_back(
+        {"near", 0, {{0.7f, 0, -0.5f}, {0.75f, 0, -0.5f}, {0.7f, 0.05f, -0.5f}}, {}, {{0, 1, 2}}});
+    Camera camera;
+    camera.znear = 1.0f;
+    const auto clipNear = [&](double center) {
+        camera.intrinsics = Intrinsics{{5.0, 5.0}, {center, 5.0}}; // 2 at distance 1
+        return makeFrame(scene, camera, sized(10, 10)).clipNear;
+    };
+    EXPECT_EQ(clipNear(5.0), 0.0f);
+    EXPECT_EQ(clipNear(2.0), 1.0f);
+    EXPECT_EQ(clipNear(8.0), 0.0f);
+}
+
 TEST(Frame, SettingsReachTheKernels) {
     RenderSettings settings = sized(8, 8);
     settings.estimator.seed = 11;

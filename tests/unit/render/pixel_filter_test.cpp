@@ -83,5 +83,17 @@ TEST(PixelFilters, OffsetsEndAtTheRadius) {
     EXPECT_FALSE(isUnitBox(settingsOf(PixelFilter::tent)));
 }
 
+TEST(PixelFilters, APointIsTheMiddleAloneWhateverRadiusIsAskedFor) {
+    EstimatorSettings settings = settingsOf(PixelFilter::point);
+    settings.filterRadius = 0.75f;
+    EXPECT_EQ(filterRadius(settings), 0.0f);
+    EXPECT_FALSE(isUnitBox(settings));
+    const FilterTable table = filterTable(settings);
+    for (const float node : table.nodes)
+        EXPECT_EQ(node, 0.0f);
+    EXPECT_EQ(table.positive, 1.0f);
+    EXPECT_EQ(table.scale, 1.0f);
+}
+
 } // namespace
 } // namespace lavalight

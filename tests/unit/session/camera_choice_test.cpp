@@ -101,6 +101,38 @@ TEST(CameraChoice, WhatMakesNoSenseIsRefusedByTheOptionsName) {
         choice.fov = fov;
         refuses(choice, "--fov");
     }
+    const Intrinsics good{{100.0, 100.0}, {50.0, 50.0}};
+    for (const Intrinsics& bad :
+         {Intrinsics{{0.0, 100.0}, {50.0, 50.0}}, Intrinsics{{100.0, -1.0}, {50.0, 50.0}},
+          Intrinsics{{100.0, 100.0}, {2e6, 50.0}}}) {
+        choice = aimed();
+        choice.intrinsics = bad;
+        refuses(choice, "--intrinsics");
+    }
+    choice = aimed();
+    choice.intrinsics = good;
+    EXPECT_EQ(chooseCamera(cornellBox(), choice).intrinsics, good);
+    choice.fov = 30.0f;
+    refuses(choice, "--fov");
+    choice = aimed();
+    choice.intrinsics = good;
+    choice.panorama = true;
+    refuses(choice, "--intrinsics");
+    choice = {};
+    choice.intrinsics = good;
+    choice.view = NamedView::front;
+    refuses(choice, "--intrinsics");
+    for (const glm::vec2& planes : {glm::vec2(2.0f, 1.0f), glm::vec2(-1.0f, 1.0f), glm::vec2(1.0f, 1.0f)}) {
+        choice = aimed();
+        choice.clip = planes;
+        refuses(choice, "--clip");
+    }
+    choice = aimed();
+    choice.clip = glm::vec2(0.5f, 2.0f);
+    EXPECT_EQ(chooseCamera(cornellBox(), choice).znear, 0.5f);
+    EXPECT_EQ(chooseCamera(cornellBox(), choice).zfar, 2.0f);
+    choice.seesAll = true;
+    refuses(choice, "--no-clip");
     choice = aimed();
     choice.aperture = -1.0f;
     refuses(choice, "--aperture");
@@ -123,6 +155,10 @@ TEST(CameraChoice, EqualChoicesHaveEqualDescriptionsAndEveryMemberShowsInThem) {
     const OptionPairs expected{{"look-from", "0,0,4"}, {"look-at", "0,0,1"}, {"up", "0,1,0"},   {"fov", "30"},
                                {"aperture", "0.25"},   {"focus", "1.5"},     {"panorama", "on"}};
     EXPECT_EQ(describe(choice), expected);
+    choice = {};
+    choice.intrinsics = Intrinsics{{100.0, 90.5}, {50.0, 40.0}};
+    choice.clip = glm::vec2(0.5f, 2.0f);
+    EXPECT_EQ(describe(choice), (OptionPairs{{"intrinsics", "100,90.5,50,40"}, {"clip", "0.5,2"}}));
 }
 
 } // namespace
