@@ -16,10 +16,11 @@ target_link_libraries(_lavalight PRIVATE lavalight_cli)
 target_link_options(_lavalight PRIVATE -Wl,--exclude-libs,ALL -Wl,--as-needed) # the Vulkan loader is opened when it is needed
 set_target_properties(_lavalight PROPERTIES LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/python/lavalight)
 
-file(GLOB package CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/python/lavalight/*.py ${CMAKE_SOURCE_DIR}/python/lavalight/*.pyi
-    ${CMAKE_SOURCE_DIR}/python/lavalight/py.typed)
-foreach(file ${package})
-    get_filename_component(name ${file} NAME)
+set(package_folder ${CMAKE_SOURCE_DIR}/python/lavalight)
+file(GLOB package RELATIVE ${package_folder} CONFIGURE_DEPENDS ${package_folder}/*.py ${package_folder}/*.pyi ${package_folder}/py.typed
+    ${package_folder}/serve/*.py ${package_folder}/serve/page/*)
+foreach(name ${package})
+    set(file ${package_folder}/${name})
     add_custom_command(OUTPUT ${CMAKE_BINARY_DIR}/python/lavalight/${name}
         COMMAND ${CMAKE_COMMAND} -E copy ${file} ${CMAKE_BINARY_DIR}/python/lavalight/${name} DEPENDS ${file} VERBATIM)
     list(APPEND copies ${CMAKE_BINARY_DIR}/python/lavalight/${name})
@@ -27,4 +28,7 @@ endforeach()
 add_custom_target(python_package ALL DEPENDS _lavalight ${copies})
 
 install(TARGETS _lavalight LIBRARY DESTINATION lavalight COMPONENT python EXCLUDE_FROM_ALL)
-install(FILES ${package} DESTINATION lavalight COMPONENT python EXCLUDE_FROM_ALL)
+foreach(name ${package})
+    get_filename_component(folder ${name} DIRECTORY)
+    install(FILES ${package_folder}/${name} DESTINATION lavalight/${folder} COMPONENT python EXCLUDE_FROM_ALL)
+endforeach()

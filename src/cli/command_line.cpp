@@ -21,6 +21,7 @@
 #include "cli/commands/render_command.h"
 #include "cli/commands/split_command.h"
 #include "cli/commands/status_command.h"
+#include "cli/commands/serve_command.h"
 #include "cli/commands/trace_command.h"
 #include "cli/commands/view_command.h"
 
@@ -60,6 +61,7 @@ CommandLine::CommandLine()
     app.option_defaults()->always_capture_default();
     commands_.push_back(std::make_unique<RenderCommand>(app));
     commands_.push_back(std::make_unique<ViewCommand>(app));
+    commands_.push_back(std::make_unique<ServeCommand>(app));
     commands_.push_back(std::make_unique<PresetsCommand>(app));
     commands_.push_back(std::make_unique<TraceCommand>(app));
     commands_.push_back(std::make_unique<LabCommand>(app));

@@ -89,8 +89,11 @@ nb::object pixelsOf(nb::handle self) {
 
 nb::bytes pngOf(const PythonImage& image) {
     const Image& radiance = image.rendering().radiance();
-    const std::string png = encodePng(radiance.width, radiance.height, image.finished().pixels,
-                                      pngTexts(image.finished().tone.value()));
+    const std::string png = [&] {
+        const nb::gil_scoped_release release;
+        return encodePng(radiance.width, radiance.height, image.finished().pixels,
+                         pngTexts(image.finished().tone.value()));
+    }();
     return nb::bytes(png.data(), png.size());
 }
 

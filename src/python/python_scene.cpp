@@ -2,17 +2,20 @@
 
 #include <array>
 #include <optional>
+#include <tuple>
 
 #include <fmt/format.h>
 #include <nanobind/stl/array.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
 #include "base/error.h"
 #include "cli/options/picture_words.h"
 #include "gltf/import.h"
+#include "scene/world_position.h"
 #include "session/camera_choice.h"
 #include "session/lit_scene.h"
 
@@ -93,6 +96,9 @@ std::vector<MaterialView> materialsOf(nb::handle self) {
 Place toPlace(const glm::dvec3& v) {
     return {v.x, v.y, v.z};
 }
+Vector3 toVector(const glm::vec3& v) {
+    return {v.x, v.y, v.z};
+}
 
 std::vector<std::string> cameraNames(const PythonScene& scene) {
     std::vector<std::string> names;
@@ -100,6 +106,20 @@ std::vector<std::string> cameraNames(const PythonScene& scene) {
         for (const Camera& camera : scene.scene()->cameras)
             names.push_back(camera.name);
     return names;
+}
+
+// Name, place, direction of view, up, and vertical field of view in degrees.
+using PlacedView = std::tuple<std::string, Place, Vector3, Vector3, double>;
+
+std::vector<PlacedView> perspectiveCameras(const PythonScene& scene) {
+    std::vector<PlacedView> views;
+    const Scene& loaded = *scene.scene();
+    for (const Camera& camera : loaded.cameras)
+        if (loaded.hasOwnCamera && camera.projection == Projection::perspective)
+            views.emplace_back(camera.name, toPlace(toWorld(camera.position, loaded.origin)),
+                               toVector(camera.forward), toVector(camera.up),
+                               glm::degrees(double{camera.verticalFov}));
+    return views;
 }
 
 std::vector<std::pair<std::string, float>> animationsOf(const PythonScene& scene) {
@@ -155,6 +175,7 @@ void declareScene(nb::module_& module) {
         .def_prop_ro("triangles", [](const PythonScene& scene) { return scene.scene()->triangleCount(); })
         .def_prop_ro("materials", &materialsOf)
         .def_prop_ro("cameras", &cameraNames)
+        .def_prop_ro("perspective_cameras", &perspectiveCameras)
         .def_prop_ro("variants", [](const PythonScene& scene) { return scene.scene()->variants; })
         .def_prop_ro("scenes", [](const PythonScene& scene) { return scene.scene()->scenes; })
         .def_prop_ro("animations", &animationsOf)
