@@ -136,11 +136,15 @@ def _run(settings: Settings) -> int:
     from ._connection import Connection
 
     class Uvicorn(uvicorn.Server):
-        """Ends renders as soon as it is interrupted."""
+        """Says where it listens once it does, and ends renders as soon as it is interrupted."""
 
         def __init__(self, config: uvicorn.Config, server: Server) -> None:
             super().__init__(config)
             self._server = server
+
+        async def startup(self, sockets: list[socket.socket] | None = None) -> None:
+            await super().startup(sockets)
+            print(f"lavalight: serving at {address}; Ctrl-C ends it", flush=True)
 
         def handle_exit(self, sig: int, frame: FrameType | None) -> None:
             self._server.renders.close()
@@ -156,8 +160,7 @@ def _run(settings: Settings) -> int:
     listening = _listen(settings.host, settings.port)
     port = listening.getsockname()[1]
     host = f"[{settings.host}]" if ":" in settings.host else settings.host
-    path = f"/{settings.token}/" if settings.token else "/"
-    print(f"lavalight: serving at http://{host}:{port}{path}; Ctrl-C ends it", flush=True)
+    address = f"http://{host}:{port}/{f'{settings.token}/' if settings.token else ''}"
     try:
         Uvicorn(config, server).run([listening])
     except KeyboardInterrupt:  # uvicorn passes it on once all has ended

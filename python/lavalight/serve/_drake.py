@@ -153,8 +153,8 @@ def _labels(request: DrakeRequest, scene: Scene, job: Job) -> npt.NDArray[np.uin
     """The base colour of what is seen, whose bytes are the label; white where nothing is."""
     ids = _first_surface(request, scene, "material-id", job).layers["material-id"]
     colors = [[1.0, 1.0, 1.0], *([*material.base_color] for material in scene.materials)]
-    table: npt.NDArray[np.uint8] = np.rint(np.array(colors) * 255.0).astype(np.uint8)
-    return table[ids]
+    labels: npt.NDArray[np.uint8] = np.rint(np.array(colors) * 255.0).astype(np.uint8)[ids]
+    return labels
 
 
 def with_y_up(model: bytes) -> bytes:
