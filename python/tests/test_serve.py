@@ -704,6 +704,13 @@ def test_drakes_world_is_turned_with_its_cameras():
         assert _drake.with_y_up(left_alone) == left_alone
 
 
+def test_members_that_drake_leaves_null_are_dropped(model):
+    gltf = {"asset": {"version": "2.0"}, "images": None, "nodes": [{"name": None}]}
+    assert json.loads(_drake.without_nulls(json.dumps(gltf).encode())) == {"asset": {"version": "2.0"}, "nodes": [{"name": None}]}
+    for left_alone in (model, b"null", b"[null]", b"glTFnull"):
+        assert _drake.without_nulls(left_alone) == left_alone
+
+
 def test_a_glb_is_turned_too(model):
     turned = _drake.with_y_up(model)
     assert turned != model and struct.unpack_from("<I", turned, 8)[0] == len(turned)

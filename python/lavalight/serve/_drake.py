@@ -10,7 +10,7 @@ import json
 import math
 import re
 import struct
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -107,6 +107,7 @@ def render(request: DrakeRequest, model: bytes, settings: Settings, job: Job) ->
     """A media type and the picture's bytes."""
     if request.sha256 is not None and hashlib.sha256(model).hexdigest() != request.sha256:
         raise Refusal(400, "cannot take the scene: its bytes do not have the sum that scene_sha256 says")
+    model = without_nulls(model)
     if request.image_type == "color":
         return "image/png", _color(request, with_y_up(model), settings, job)
     scene = _load(model, settings, {})
@@ -158,22 +159,40 @@ def _labels(request: DrakeRequest, scene: Scene, job: Job) -> npt.NDArray[np.uin
 
 
 def with_y_up(model: bytes) -> bytes:
-    """The scene with its z turned to y, cameras and all, so that light comes from above. A file that is not understood stays as it is."""
+    """The scene with its z turned to y, cameras and all, so that light comes from above."""
+    return _edited(model, _turn)
+
+
+def without_nulls(model: bytes) -> bytes:
+    """Drake writes `"images": null` where a model that it merged has no pictures."""
+    return _edited(model, _drop_nulls) if b"null" in model else model
+
+
+def _edited(model: bytes, edit: Callable[[dict[str, Any]], None]) -> bytes:
+    """With other JSON. A file that is not understood stays as it is: the loader says what is wrong with it."""
     try:
         if model[:4] != b"glTF":
-            return json.dumps(_turned(json.loads(model))).encode()
+            gltf = json.loads(model)
+            edit(gltf)
+            return json.dumps(gltf).encode()
         length = struct.unpack_from("<I", model, 12)[0]
-        text = json.dumps(_turned(json.loads(model[20:20 + length]))).encode()
+        gltf = json.loads(model[20:20 + length])
+        edit(gltf)
+        text = json.dumps(gltf).encode()
         text += b" " * (-len(text) % 4)
         body = struct.pack("<I4s", len(text), b"JSON") + text + model[20 + length:]
         return struct.pack("<4sII", b"glTF", 2, 12 + len(body)) + body
     except (ValueError, TypeError, LookupError, AttributeError, RecursionError, struct.error):
-        return model  # the loader says what is wrong with it
+        return model
 
 
-def _turned(gltf: dict[str, Any]) -> dict[str, Any]:
+def _turn(gltf: dict[str, Any]) -> None:
     nodes = gltf["nodes"]
     shown = gltf["scenes"][gltf.get("scene", 0)]  # the others may share its nodes, which have one parent at most
     nodes.append({"matrix": _Z_UP, "children": shown["nodes"]})
     shown["nodes"] = [len(nodes) - 1]
-    return gltf
+
+
+def _drop_nulls(gltf: dict[str, Any]) -> None:
+    for name in [name for name, value in gltf.items() if value is None]:
+        del gltf[name]
