@@ -1,5 +1,6 @@
 // The extension module lavalight._lavalight. The package in python/lavalight is its face: keywords,
 // notebooks, types.
+#include <cstring>
 #include <memory>
 
 #include <nanobind/nanobind.h>
@@ -111,6 +112,14 @@ int runCommand(std::vector<std::string> words) {
     return runCommandLine(static_cast<int>(arguments.size()), arguments.data());
 }
 
+// Messages quote files, whose names need not be UTF-8.
+void raise(PyObject* kind, const char* message) {
+    const nb::object text = nb::steal(
+        PyUnicode_DecodeUTF8(message, static_cast<Py_ssize_t>(std::strlen(message)), "backslashreplace"));
+    if (text.is_valid())
+        PyErr_SetObject(kind, text.ptr());
+}
+
 void declareErrors(nb::module_& module) {
     static PyObject* failure = PyErr_NewException("lavalight.Error", PyExc_RuntimeError, nullptr);
     static PyObject* usage = [] {
@@ -123,9 +132,9 @@ void declareErrors(nb::module_& module) {
         try {
             std::rethrow_exception(thrown);
         } catch (const UsageError& error) {
-            PyErr_SetString(usage, error.what());
+            raise(usage, error.what());
         } catch (const Error& error) {
-            PyErr_SetString(failure, error.what());
+            raise(failure, error.what());
         }
     });
 }

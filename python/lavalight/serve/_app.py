@@ -125,7 +125,7 @@ def _endpoint(server: Server, function: Endpoint) -> Callable[[Request], Awaitab
             status = error.status_code
             raise
         finally:
-            log.info("%s %s: %d after %.2f s", request.method, request.url.path, status, time.monotonic() - start)
+            log.info("%s %r: %d after %.2f s", request.method, request.url.path[:200], status, time.monotonic() - start)
 
     return endpoint
 

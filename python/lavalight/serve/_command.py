@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import asyncio
 import dataclasses
 import importlib.util
 import ipaddress
@@ -34,7 +35,7 @@ def main(words: Sequence[str]) -> int:
         settings = settings_of(arguments)
         if missing:
             raise RuntimeError(f"cannot serve: {', '.join(missing)} {'is' if len(missing) == 1 else 'are'} not installed; "
-                               "try pip install 'lavalight[serve]'")
+                               f"try pip install {' '.join(missing)}, or install lavalight[serve]")
         return _run(settings)
     except UsageError as error:
         print(f"lavalight: {error}", file=sys.stderr)
@@ -143,11 +144,12 @@ def _run(settings: Settings) -> int:
             self._server = server
 
         async def startup(self, sockets: list[socket.socket] | None = None) -> None:
+            self._loop = asyncio.get_running_loop()
             await super().startup(sockets)
             print(f"lavalight: serving at {address}; Ctrl-C ends it", flush=True)
 
         def handle_exit(self, sig: int, frame: FrameType | None) -> None:
-            self._server.renders.close()
+            self._loop.call_soon_threadsafe(self._server.renders.close)
             super().handle_exit(sig, frame)
 
     logging.basicConfig(format="%(message)s", level=logging.WARNING)

@@ -56,7 +56,16 @@ class Connection(H11Protocol):
             self._stop(self._head_timer)
             self._head_timer = None
         elif self._head_timer is None and not self.transport.is_closing():
-            self._head_timer = self.loop.call_later(self.HEAD_SECONDS, self.transport.abort)
+            self._head_timer = self.loop.call_later(self.HEAD_SECONDS, self._end_waiting)
+
+    def _end_waiting(self) -> None:
+        if self.transport.is_closing():
+            return
+        if self.conn.trailing_data[0]:  # some of a head
+            text = b"cannot take the request: it arrives too slowly\n"
+            self.transport.write(b"HTTP/1.1 408 Request Timeout\r\nContent-Type: text/plain\r\nConnection: close\r\nContent-Length: %d\r\n\r\n%s" % (len(text), text))
+        self.transport.close()
+        self.loop.call_later(1.0, self.transport.abort)  # a client that does not read keeps it open otherwise
 
     @staticmethod
     def _stop(timer: asyncio.TimerHandle | None) -> None:

@@ -16,7 +16,7 @@ class Limits:
     seconds: float = 120.0  # of a render, loading included
     renders: int = 1  # at once
     waiting: int = 16  # requests behind those
-    scenes: int = 8  # that are kept for the page
+    scenes: int = 4  # that are kept for the page
     idle: float = 900.0  # seconds that a scene is kept without being asked for
     body: float = 60.0  # seconds that a request may take to arrive
     silence: float = 10.0  # seconds without a byte, while a request arrives

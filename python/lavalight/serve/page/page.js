@@ -167,6 +167,8 @@ async function renderQuickly() {
       const wanted = { ...request(), size: sizeWithin(QUICK_PIXELS), spp: QUICK_SAMPLES, format: "jpeg" };
       const response = await post("render", json(wanted, "image/jpeg", signal));
       show(await response.blob(), QUICK_SAMPLES);
+      get("progress").hidden = true;
+      say("A small picture, until the view rests");
       complain(null);
     } while (moved);
   } catch (error) {
