@@ -29,12 +29,15 @@ for needed in NEEDED:
     pytest.importorskip(needed, reason=f"the extra lavalight[serve] is not installed: {needed}")
 
 from lavalight.serve import _command, _drake, _preview  # noqa: E402
+from lavalight.serve._connection import Connection  # noqa: E402
 from lavalight.serve._guard import Guard  # noqa: E402
 from lavalight.serve._refusal import ClientGone, Refusal  # noqa: E402
 from lavalight.serve._renders import Renders  # noqa: E402
 from lavalight.serve._scenes import KeptScene, Scenes  # noqa: E402
 from lavalight.serve._settings import Limits, Settings  # noqa: E402
 from PIL import Image as Pillow  # noqa: E402
+from starlette.responses import PlainTextResponse  # noqa: E402
+import uvicorn  # noqa: E402
 
 TOKEN = "a-token-of-24-characters"
 
@@ -724,3 +727,41 @@ def test_types_of_the_package_are_strict():
     if "No module named mypy" in done.stderr:
         pytest.skip("mypy is not installed")
     assert done.returncode == 0, done.stdout + done.stderr
+
+
+def test_what_is_not_http_is_400_though_more_comes(server):
+    for data in (b"\x16\x03\x01" * 100000, b"GET / HTTP/9\r\n\r\n" + b"x" * 300000, b"GET\r\n\r\n"):
+        assert server.raw(data).startswith(b"HTTP/1.1 400"), data[:20]
+    head = b"POST /scenes HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: chunked\r\n\r\n"
+    assert server.raw(head + b"zz\r\n" + b"x" * 300000).startswith(b"HTTP/1.1 400")
+
+
+def test_a_head_that_does_not_end_is_408_and_silence_ends():
+    class Hasty(Connection):
+        HEAD_SECONDS = 0.2
+
+    async def ask(data, step=100):
+        with socket.socket() as listening:
+            listening.bind(("127.0.0.1", 0))
+            running = uvicorn.Server(uvicorn.Config(PlainTextResponse("well"), http=Hasty, log_config=None, lifespan="off"))
+            serving = asyncio.ensure_future(running.serve([listening]))
+            while not running.started:
+                await asyncio.sleep(0.01)
+            reader, writer = await asyncio.open_connection(*listening.getsockname())
+            answer = asyncio.ensure_future(reader.readline())
+            for i in range(0, len(data), step):
+                writer.write(data[i:i + step])
+                await asyncio.wait({answer}, timeout=0.02)
+            try:
+                return await asyncio.wait_for(answer, 5.0)
+            except ConnectionError:
+                return b""
+            finally:
+                writer.close()
+                running.should_exit = True
+                await serving
+
+    assert asyncio.run(ask(b"GET / HTTP/1.1\r\nHost: x", 1)).startswith(b"HTTP/1.1 408")
+    assert asyncio.run(ask(b"")) == b""
+    assert asyncio.run(ask(b"GET / HTTP/1.1\r\n\r\n")).startswith(b"HTTP/1.1 400")  # h11 wants a Host
+    assert asyncio.run(ask(b"GET / HTTP/1.0\r\n\r\n")).startswith(b"HTTP/1.1 200")

@@ -202,7 +202,7 @@ async function openScene(options, name) {
     scene = await response.json();
     if (former) fetch(`scenes/${former.scene}`, { method: "DELETE" });
     orbit = new Orbit(scene);
-    picture.alt = `A rendering of ${name}`;
+    picture.alt = `A rendering of ${name}; the arrow keys turn it`;
     get("choices").hidden = false;
     document.title = `${name} – Lavalight`;
     say(`${name}, ${scene.triangles.toLocaleString("en")} triangles`);
