@@ -12,7 +12,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
-from .. import builtin_scenes
+from .. import _lavalight, builtin_scenes
 from .._image import Image
 from .._keywords import words
 from . import _pictures
@@ -168,13 +168,22 @@ def render_events(preview: Preview, send: Sent, job: Job) -> None:
     scene = preview.scene.scene(preview.scene_keywords)
     job.go_on()
     start = time.monotonic()
-    for image in scene.progressive(size=preview.size, spp=preview.spp, every=preview.every, progress=job.go_on, **preview.render_keywords):
+    options = words({"size": preview.size, "spp": preview.spp, **preview.render_keywords}, False, "render")
+    running = _lavalight.Render(scene._scene, options, True)
+    seconds = preview.every
+    while True:
+        began = time.monotonic()
+        image = Image(running.advance(seconds, job.go_on))
         preview.scene.picture = image
         kind, data = (FORMATS["png"], image.png()) if image.complete else _pictures.preview(image)
         send("picture", {"type": kind, "data": base64.b64encode(data).decode(), "width": image.width, "height": image.height,
                          "samples": math.floor(float(image.samples.mean()) * 10) / 10, "of": preview.spp,
                          "seconds": round(time.monotonic() - start, 2)})
         job.go_on()
+        if image.complete:
+            break
+        # Denoising and encoding take a quarter of the time at most.
+        seconds = max(preview.every, 3.0 * (time.monotonic() - began - seconds))
     send("done", {"ledger": image.ledger})
 
 
