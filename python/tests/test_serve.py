@@ -206,6 +206,13 @@ def test_a_form_that_makes_no_sense_is_400(server, model, changes):
     assert data.decode().startswith("cannot ") or "--" in data.decode()
 
 
+def test_a_field_that_is_given_twice_is_400(server, model):
+    body, headers = form(model, image_type="label")
+    again = b"------boundary\r\nContent-Disposition: form-data; name=\"width\"\r\n\r\n41\r\n"
+    status, _, data = server.ask("POST", "/render", again + body, headers)
+    assert status == 400 and b"twice" in data
+
+
 def test_a_form_that_is_no_form_is_400(server):
     headers = {"Content-Type": "multipart/form-data; boundary=x"}
     for body in (b"", b"\x00" * 100, b"--x", b"--x\r\n\r\n", b"--x\r\nContent-Disposition: form-data; name=\"scene\"; filename=\"a\"\r\n\r\nabc\r\n--x--\r\n"):
@@ -737,6 +744,8 @@ def test_what_is_not_http_is_400_though_more_comes(server):
 
 
 def test_a_head_that_does_not_end_is_408_and_silence_ends():
+    assert Connection.HEAD_SECONDS <= 30.0
+
     class Hasty(Connection):
         HEAD_SECONDS = 0.2
 

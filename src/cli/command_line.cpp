@@ -19,9 +19,9 @@
 #include "cli/commands/pack_command.h"
 #include "cli/commands/presets_command.h"
 #include "cli/commands/render_command.h"
+#include "cli/commands/serve_command.h"
 #include "cli/commands/split_command.h"
 #include "cli/commands/status_command.h"
-#include "cli/commands/serve_command.h"
 #include "cli/commands/trace_command.h"
 #include "cli/commands/view_command.h"
 
