@@ -17,7 +17,7 @@ VALUES = {
     "filter_radius": 1.5, "seed": 7, "device": 0, "require_device": "cpu", "schedule": "fused", "wave_size": 5000, "band_rows": 4,
     "crop": (2, 2, 8, 8), "camera": 0, "look_from": (0.0, 1.0, 3.5), "look_at": (0, 1, 0), "up": (0, 1, 0), "fov": 40,
     "aperture": 0.1, "focus": 2.0, "view": "front", "panorama": True, "no_clip": True, "tonemap": "agx", "exposure": -1.5,
-    "background": "transparent", "ground": "#808080", "layers": ["normal", "depth"], "denoise": None, "kernel_timeout": 100,
+    "background": "transparent", "ground": "#808080", "intrinsics": (30.0, 25, 8, 6.5), "clip": (0.1, 10), "layers": ["normal", "depth"], "denoise": None, "kernel_timeout": 100,
 }
 NEEDS = {"look_at": {"look_from": (0, 1, 3)}, "up": {"look_from": (0, 1, 3), "look_at": (0, 1, 0)}, "focus": {"aperture": 0.1},
          "mis_survival": {"roulette": "constant"}, "roulette_probability": {"roulette": "constant"}, "filter_radius": {"filter": "tent"}, "look_from": {"look_at": (0, 1, 0)}}
