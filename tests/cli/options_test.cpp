@@ -140,7 +140,8 @@ TEST_F(Options, OfRenderAreOnRecordUnlessTheyAreListedHereWithTheReason) {
                       "40", "--aperture", "0.1", "--focus", "1"});
     recorded.merge(recordedWith({"--spp", "1", "--view", "top", "--background", "transparent", "--ground",
                                  "shadow", "--crop", "1,1,2x2", "--aov", "depth"}));
-    recorded.merge(recordedWith({"--spp", "1", "--env", "sky"}));
+    recorded.merge(
+        recordedWith({"--spp", "1", "--env", "sky", "--intrinsics", "8,8,4,4", "--clip", "0.1,9"}));
     std::filesystem::copy_file(folder_ / "image.exr", folder_ / "sky.exr");
     recorded.merge(
         recordedWith({"--spp", "1", "--panorama", "--no-clip", "--env", "sky.exr", "--env-rotation", "20"}));
