@@ -75,7 +75,11 @@ class Connection(H11Protocol):
         if not is_answering:
             head = f"HTTP/1.1 {status}\r\nContent-Type: text/plain\r\nConnection: close\r\nContent-Length: {len(text) + 1}\r\n\r\n"
             self.transport.write(f"{head}{text}\n".encode("ascii"))
-        self.transport.write_eof()
+        try:
+            self.transport.write_eof()
+        except OSError:  # the client has gone
+            self.transport.abort()
+            return
         self.transport.resume_reading()
         self.loop.call_later(self.PARTING_SECONDS, self.transport.abort)
 
