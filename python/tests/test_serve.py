@@ -122,6 +122,14 @@ def model():
     return build_glb(meshes, materials, lavalight.Camera((0, 0, 0), (0, 0, -1), fov=41), [])
 
 
+def as_gltf(model):
+    """The JSON of a .glb, with its bytes inside."""
+    length = struct.unpack_from("<I", model, 12)[0]
+    gltf = json.loads(model[20:20 + length])
+    gltf["buffers"][0]["uri"] = "data:application/octet-stream;base64," + base64.b64encode(model[28 + length:]).decode()
+    return gltf
+
+
 def form(model, **changes):
     fields = {**FIELDS, "scene_sha256": hashlib.sha256(model).hexdigest(), **changes}
     boundary = "----boundary"
@@ -274,10 +282,7 @@ def test_models_come_as_base64_or_as_json(server, model):
     request = {"size": [16, 12], "spp": 1, "env": "white"}
     one = server.json("/render", {**request, "model": base64.b64encode(model).decode()})
     assert one[0] == 200, one
-    length = struct.unpack_from("<I", model, 12)[0]
-    gltf = json.loads(model[20:20 + length])
-    gltf["buffers"][0]["uri"] = "data:application/octet-stream;base64," + base64.b64encode(model[28 + length:]).decode()
-    other = server.json("/render", {**request, "model": gltf})
+    other = server.json("/render", {**request, "model": as_gltf(model)})
     assert other[0] == 200 and other[2] == one[2]
 
 
@@ -714,7 +719,10 @@ def test_drakes_world_is_turned_with_its_cameras():
         assert _drake.with_y_up(left_alone) == left_alone
 
 
-def test_members_that_drake_leaves_null_are_dropped(model):
+def test_members_that_drake_leaves_null_are_dropped(server, model):
+    with_null = json.dumps({**as_gltf(model), "images": None}).encode()
+    for changes in ({}, {"image_type": "label"}):
+        assert server.ask("POST", "/render", *form(with_null, **changes))[0] == 200
     gltf = {"asset": {"version": "2.0"}, "images": None, "nodes": [{"name": None}]}
     assert json.loads(_drake.without_nulls(json.dumps(gltf).encode())) == {"asset": {"version": "2.0"}, "nodes": [{"name": None}]}
     for left_alone in (model, b"null", b"[null]", b"glTFnull"):
