@@ -17,13 +17,14 @@ from typing import Any
 
 from . import _lavalight
 from ._build import Camera, Light, Material, Mesh
-from ._image import Comparison, Image, Layers
+from ._bundle import pack
+from ._image import Comparison, Image, Layers, merge
 from ._lab import Table, experiments, lab
 from ._lavalight import Error, UsageError
 from ._scene import Materials, Scene, load
 
 __all__ = ["Camera", "Comparison", "Error", "Image", "Layers", "Light", "Material", "Materials", "Mesh", "Scene", "Table",
-           "UsageError", "builtin_scenes", "devices", "experiments", "lab", "load", "presets", "__version__"]
+           "UsageError", "builtin_scenes", "devices", "experiments", "lab", "load", "merge", "pack", "presets", "__version__"]
 
 __version__ = _lavalight.__version__
 

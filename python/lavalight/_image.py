@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from . import _lavalight
+from . import _keywords, _lavalight
 
 Floats = npt.NDArray[np.float32]
 
@@ -143,6 +143,16 @@ class Image:
         """The bytes of the PNG that save() would write."""
         return self._image.png()
 
+    def film_bytes(self) -> bytes:
+        """The exact film, for merge(). An image has it where it was rendered with samples=(first, end) or merged.
+
+        Raises Error for any other.
+        """
+        return self._image.film_bytes()
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _unpickled, (self._image.pack(),)
+
     def _repr_png_(self) -> bytes:
         return self.png()
 
@@ -162,3 +172,40 @@ class Image:
     def __repr__(self) -> str:
         state = "" if self.complete else ", not complete"
         return f"<lavalight.Image {self.width} x {self.height}, layers {', '.join(self._image.layer_names)}{state}>"
+
+
+def _unpickled(data: bytes) -> Image:
+    return Image(_lavalight.Image.unpack(data))
+
+
+# What merge() takes of the options of render(): how the picture is shown.
+SHOWN = frozenset({"tonemap", "exposure", "background", "denoise"})
+
+
+def merge(parts: Iterable[Image | bytes | str | os.PathLike[str]], **keywords: Any) -> Image:
+    """Joins parts of one image, and gives it with the bits that one render of all samples has.
+
+    Parts are images, the bytes of film_bytes(), or EXR files; they were rendered with samples=(first, end), and hold different
+    samples or different parts of the image. tonemap, exposure, background and denoise are those of render(). Raises Error where
+    parts do not fit together. What a part cannot tell is not in the report: stages, kernels, memory.
+    """
+    for keyword in keywords:
+        if keyword not in SHOWN:
+            raise TypeError(f"merge() got an unexpected keyword argument {keyword!r}; it takes {', '.join(sorted(SHOWN))}")
+    words = _keywords.words(keywords, False, "merge")
+    film: _lavalight.Film | None = None
+    for number, part in enumerate(parts, 1):
+        more = _film_of(part, f"part {number}")
+        if film is None:
+            film = more
+        else:
+            film.add(more)
+    if film is None:
+        raise ValueError("merge() needs parts, and there are none")
+    return Image(film.develop(words, True, True))
+
+
+def _film_of(part: Image | bytes | str | os.PathLike[str], name: str) -> _lavalight.Film:
+    if isinstance(part, (str, os.PathLike)):
+        return _lavalight.Film.read(os.fspath(part))
+    return _lavalight.Film.from_bytes(part.film_bytes() if isinstance(part, Image) else bytes(part), name)

@@ -6,7 +6,7 @@ import os
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
-from . import _keywords, _lavalight
+from . import _bundle, _keywords, _lavalight
 from ._build import Camera, Light, Material, Mesh, build_glb
 from ._image import Image
 
@@ -42,13 +42,18 @@ class Scene:
     def __init__(self, meshes: Sequence[Mesh], materials: Sequence[Material] = (), camera: Camera | None = None,
                  lights: Sequence[Light] = (), name: str = "scene", **keywords: Any) -> None:
         data = build_glb(meshes, materials, camera, lights)
-        self._scene = _lavalight.Scene.from_bytes(name, data, _keywords.words(keywords, True, "Scene"))
+        self._origin = _bundle.Origin(_keywords.words(keywords, True, "Scene"), data)
+        self._scene = _lavalight.Scene.from_bytes(name, data, self._origin.words)
 
     @classmethod
-    def _of(cls, scene: _lavalight.Scene) -> Scene:
+    def _of(cls, scene: _lavalight.Scene, origin: _bundle.Origin) -> Scene:
         self = cls.__new__(cls)
         self._scene = scene
+        self._origin = origin
         return self
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _unpickled, (_bundle.model_of(self._scene, self._origin), _bundle.choice_of(self._scene, self._origin))
 
     @property
     def name(self) -> str:
@@ -132,7 +137,13 @@ class Scene:
 
 def load(path: str | os.PathLike[str], /, **keywords: Any) -> Scene:
     """Loads a .gltf or .glb file, or a built-in scene by its name, with its light."""
-    return Scene._of(_lavalight.Scene(os.fspath(path), _keywords.words(keywords, True, "load")))
+    name = os.fspath(path)
+    origin = _bundle.Origin.of_file(name, _keywords.words(keywords, True, "load"))
+    return Scene._of(_lavalight.Scene(name, origin.words), origin)
+
+
+def _unpickled(model: _bundle.Model, choice: _bundle.Choice) -> Scene:
+    return Scene._of(_bundle.load(model, choice), _bundle.Origin(list(choice.words), model=model))
 
 
 if __debug__ and Scene.render.__doc__ and load.__doc__:

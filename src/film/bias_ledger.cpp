@@ -1,8 +1,28 @@
 #include "film/bias_ledger.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 namespace lavalight {
+namespace {
+
+constexpr std::string_view kBetween = "; ";
+constexpr std::string_view kBeforeDetail = ": ";
+constexpr std::string_view kCauseLetters = "abcdefghijklmnopqrstuvwxyz-";
+
+// Where the first entry ends: details may have semicolons of their own, which no cause follows.
+size_t endOfEntry(std::string_view text) {
+    for (size_t at = text.find(kBetween); at != std::string_view::npos; at = text.find(kBetween, at + 1)) {
+        const std::string_view next = text.substr(at + kBetween.size());
+        const size_t cause = next.find_first_not_of(kCauseLetters);
+        if (cause != std::string_view::npos && cause > 0 && next.substr(cause).starts_with(kBeforeDetail))
+            return at;
+    }
+    return text.size();
+}
+
+} // namespace
 
 std::vector<LedgerEntry> tallyEntries(const FilmTallies& tallies) {
     std::vector<LedgerEntry> ledger;
@@ -33,8 +53,27 @@ std::string ledgerText(const std::vector<LedgerEntry>& ledger) {
         return "none";
     std::string text;
     for (const LedgerEntry& entry : ledger)
-        text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", entry.cause, entry.detail);
+        text += fmt::format("{}{}{}{}", text.empty() ? std::string_view() : kBetween, entry.cause,
+                            kBeforeDetail, entry.detail);
     return text;
+}
+
+std::vector<LedgerEntry> parseLedger(std::string_view text) {
+    std::vector<LedgerEntry> ledger;
+    if (text == ledgerText({}))
+        return ledger;
+    while (!text.empty()) {
+        const size_t length = endOfEntry(text);
+        const std::string_view entry = text.substr(0, length);
+        const size_t colon = entry.find(kBeforeDetail);
+        if (colon == std::string_view::npos)
+            ledger.push_back({std::string(entry), {}});
+        else
+            ledger.push_back({std::string(entry.substr(0, colon)),
+                              std::string(entry.substr(colon + kBeforeDetail.size()))});
+        text.remove_prefix(std::min(text.size(), length + kBetween.size()));
+    }
+    return ledger;
 }
 
 } // namespace lavalight

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "film/raw_film.h"
@@ -18,5 +19,7 @@ struct LedgerEntry {
 
 // One line for the EXR header: "none", or entries joined by "; ".
 [[nodiscard]] std::string ledgerText(const std::vector<LedgerEntry>& ledger);
+// Reads such a line back.
+[[nodiscard]] std::vector<LedgerEntry> parseLedger(std::string_view text);
 
 } // namespace lavalight

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <iterator>
+#include <numeric>
 #include <optional>
 #include <set>
 #include <span>
@@ -180,7 +180,41 @@ bool isPossible(const FilmProgress& progress, const SampleRanges& ranges, size_t
            (progress.passSamples > 0 || progress.passPixels == 0) && progress.passPixels < pixels;
 }
 
-FilmFile understood(UintImage image) {
+// All channels of a film file that are read back, in the order of UintImage's values.
+std::vector<std::string> channelNames(const Metadata& metadata) {
+    const FilmLayout layout = layoutIn(metadata);
+    std::vector<std::string> names = wordNames(layout);
+    const std::vector<size_t> depths = depthsIn(metadata, layout);
+    for (size_t i = 0; i < depths.size(); ++i)
+        for (std::string& name : idNames(layout.idLayers()[i], depths[i]))
+            names.push_back(std::move(name));
+    return names;
+}
+
+} // namespace
+
+UintImage storedFilm(const FilmFile& file) {
+    const RawFilm& film = file.film;
+    UintImage stored{film.width, film.height, film.words, file.metadata};
+    Metadata& metadata = stored.metadata;
+    metadata.emplace_back(kRanges, textOf(file.ranges));
+    metadata.emplace_back(kProgress, fmt::format("{},{},{}", file.progress.samples, file.progress.passSamples,
+                                                 file.progress.passPixels));
+    metadata.emplace_back(kTallies, fmt::format("{}", fmt::join(film.tallies, ",")));
+    metadata.emplace_back(kLayout, textOf(film.layout));
+    if (!film.ids.empty())
+        metadata.emplace_back(kIdDepths, depthsText(film.ids));
+    if (file.part) {
+        metadata.emplace_back(kImage, fmt::format("{}x{}", file.part->whole.x, file.part->whole.y));
+        metadata.emplace_back(kWindows, textOf(file.part->windows));
+    }
+    for (const OwnedChannel<uint32_t>& channel : idChannels(film))
+        stored.values.insert(stored.values.end(), channel.values.begin(), channel.values.end());
+    metadata.emplace_back(kHash, hashOf({film.width, film.height}, stored.values, metadata));
+    return stored;
+}
+
+FilmFile filmOf(UintImage image) {
     // What cryptomattes say follows from the ids.
     std::erase_if(image.metadata,
                   [](const auto& pair) { return pair.first.starts_with(kCryptomatteAttribute); });
@@ -197,8 +231,11 @@ FilmFile understood(UintImage image) {
                   {(*progress)[0], (*progress)[1], (*progress)[2]},
                   std::move(image.metadata)};
     const size_t words = file.film.layout.words() * file.film.pixels();
-    file.film.ids = idsIn(std::span(image.values).subspan(words), depthsIn(file.metadata, file.film.layout),
-                          file.film.layout, file.film.pixels());
+    const std::vector<size_t> depths = depthsIn(file.metadata, file.film.layout);
+    if (image.values.size() != words + 2 * std::reduce(depths.begin(), depths.end()) * file.film.pixels())
+        throw Error("it has other planes than its header says");
+    file.film.ids =
+        idsIn(std::span(image.values).subspan(words), depths, file.film.layout, file.film.pixels());
     image.values.resize(words);
     file.film.words = std::move(image.values);
     file.part = partIn(file.metadata, image.width, image.height);
@@ -208,50 +245,21 @@ FilmFile understood(UintImage image) {
     return file;
 }
 
-// All channels of a film file that are read back, in the order of UintImage's values.
-std::vector<std::string> channelNames(const Metadata& metadata) {
-    const FilmLayout layout = layoutIn(metadata);
-    std::vector<std::string> names = wordNames(layout);
-    const std::vector<size_t> depths = depthsIn(metadata, layout);
-    for (size_t i = 0; i < depths.size(); ++i)
-        for (std::string& name : idNames(layout.idLayers()[i], depths[i]))
-            names.push_back(std::move(name));
-    return names;
-}
-
-} // namespace
-
 void writeFilmFile(const std::filesystem::path& path, const FilmFile& file, std::span<const Layer> more) {
-    const FilmProgress& progress = file.progress;
-    const RawFilm& film = file.film;
-    Rendering rendering = resolve(film);
-    ExrContents contents;
-    addIdLayers(film.ids, rendering.sampleCounts, file.metadata, contents);
-    std::vector<OwnedChannel<uint32_t>> ids = idChannels(film);
-    Metadata metadata = file.metadata;
-    metadata.emplace_back(kRanges, textOf(file.ranges));
-    metadata.emplace_back(
-        kProgress, fmt::format("{},{},{}", progress.samples, progress.passSamples, progress.passPixels));
-    metadata.emplace_back(kTallies, fmt::format("{}", fmt::join(film.tallies, ",")));
-    metadata.emplace_back(kLayout, textOf(film.layout));
-    if (!film.ids.empty())
-        metadata.emplace_back(kIdDepths, depthsText(film.ids));
-    if (file.part) {
-        metadata.emplace_back(kImage, fmt::format("{}x{}", file.part->whole.x, file.part->whole.y));
-        metadata.emplace_back(kWindows, textOf(file.part->windows));
+    Rendering rendering = resolve(file.film);
+    if (file.part)
         rendering.place = placeOf(*file.part);
-    }
-    std::vector<uint32_t> words = film.words;
-    for (const OwnedChannel<uint32_t>& channel : ids)
-        words.insert(words.end(), channel.values.begin(), channel.values.end());
-    metadata.emplace_back(kHash, hashOf({film.width, film.height}, words, metadata));
-    const std::vector<std::string> names = wordNames(film.layout);
-    for (size_t word = 0; word < film.layout.countWord(); ++word)
-        contents.words.push_back(
-            {names[word], std::span(film.words).subspan(word * film.pixels(), film.pixels())});
-    std::move(ids.begin(), ids.end(), std::back_inserter(contents.uints));
+    ExrContents contents;
+    addIdLayers(file.film.ids, rendering.sampleCounts, file.metadata, contents);
+    const UintImage stored = storedFilm(file);
+    const std::vector<std::string> names = channelNames(stored.metadata);
+    const size_t pixels = file.film.pixels();
+    for (size_t plane = 0; plane < names.size(); ++plane)
+        if (names[plane] != kSampleChannel) // every image has it
+            contents.words.push_back(
+                {names[plane], std::span(stored.values).subspan(plane * pixels, pixels)});
     rendering.layers.insert(rendering.layers.end(), more.begin(), more.end());
-    writeExr(path, rendering, metadata, contents);
+    writeExr(path, rendering, stored.metadata, contents);
 }
 
 FilmFile readFilmFile(const std::filesystem::path& path) {
@@ -259,7 +267,7 @@ FilmFile readFilmFile(const std::filesystem::path& path) {
     try {
         if (!image)
             throw Error("it holds no exact film, as images of render --samples A:B and of merge do");
-        return understood(std::move(*image));
+        return filmOf(std::move(*image));
     } catch (const Error& error) {
         throw Error(fmt::format("cannot read {}: {}", path.string(), error.what()));
     }

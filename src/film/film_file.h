@@ -49,6 +49,12 @@ struct FilmState {
 // Throws Error for whatever is no such file.
 [[nodiscard]] FilmState readFilmState(const std::filesystem::path& path);
 
+// What is stored of a film beside the picture: its words plane by plane, then those of its ids, under a
+// header with a hash of them all. filmOf() reads it back, and throws Error, which names no file, for anything
+// else.
+[[nodiscard]] UintImage storedFilm(const FilmFile& file);
+[[nodiscard]] FilmFile filmOf(UintImage stored);
+
 // Value of a key, or empty.
 [[nodiscard]] std::string valueOf(const Metadata& metadata, const std::string& key);
 // Replaces the key's value, or adds it.

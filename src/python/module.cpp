@@ -15,11 +15,15 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "base/version.h"
+#include "cli/options/device_options.h"
 #include "cli/options/picture_words.h"
 #include "cli/run_command_line.h"
 #include "gpu/device.h"
 #include "gpu/direct_driver.h"
 #include "lab/experiment.h"
+#include "python/device_use.h"
+#include "python/pixel_maker.h"
+#include "python/python_film.h"
 #include "python/python_image.h"
 #include "python/python_render.h"
 #include "python/python_scene.h"
@@ -103,6 +107,14 @@ std::vector<std::tuple<std::string, bool, std::string, std::string>> optionTuple
     return tuples;
 }
 
+// The first sample that a render of those options takes of each pixel, and how many it takes. Throws as a
+// render does whose options are refused.
+std::pair<uint32_t, uint32_t> sampleRange(const std::string& scene, const std::vector<std::string>& words) {
+    const nb::gil_scoped_release release;
+    const RenderSettings settings = parsePicture(scene, words).plan.settings;
+    return {settings.image.firstSample, settings.stop.samples};
+}
+
 // The program, with its own messages in place of Python's logger.
 int runCommand(std::vector<std::string> words) {
     const nb::gil_scoped_release release;
@@ -148,18 +160,26 @@ NB_MODULE(_lavalight, module) {
     declareImage(module);
     declareScene(module);
     declareRender(module);
+    declareFilm(module);
     module.def("picture_options", &optionTuples);
     module.def("builtin_scenes", &builtinNames);
     module.def("presets", &presetNames);
+    module.def("sample_range", &sampleRange, nb::arg("scene"), nb::arg("words"));
+    module.def("limit_threads", &limitAllThreads, nb::arg("threads"));
     module.def("experiments", &experimentNames);
     module.def("devices_json", &devicesJson, nb::call_guard<nb::gil_scoped_release>());
     module.def("lab_json", &labJson, nb::arg("experiment"), nb::arg("samples"), nb::arg("seed"));
     module.def(
         "use_driver", [](const std::string& library) { gpu::useDriver(library); }, nb::arg("library"));
-    module.def("forbid_renders", &forbidRenders, nb::arg("reason"));
+    module.def("forbid_renders", &forbidDeviceUse, nb::arg("reason"));
     module.def("run_command", &runCommand, nb::arg("words"));
     module.def(
-        "close", [] { SessionPool::ofProcess().clear(); }, nb::call_guard<nb::gil_scoped_release>());
+        "close",
+        [] {
+            SessionPool::ofProcess().clear();
+            PixelMaker::ofProcess().clear();
+        },
+        nb::call_guard<nb::gil_scoped_release>());
 }
 
 } // namespace lavalight::python

@@ -1,6 +1,7 @@
 #include "python/python_image.h"
 
 #include <algorithm>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -9,6 +10,7 @@
 #include <nanobind/ndarray.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/unique_ptr.h>
 #include <nanobind/stl/vector.h>
 #include <nlohmann/json.hpp>
 
@@ -16,7 +18,9 @@
 #include "base/file.h"
 #include "compare/comparison.h"
 #include "compare/comparison_output.h"
+#include "film/film_bytes.h"
 #include "image/png.h"
+#include "python/pixel_maker.h"
 
 namespace lavalight::python {
 
@@ -80,10 +84,15 @@ nb::object samplesOf(nb::handle self) {
     return nb::cast(Words(rendering.sampleCounts.data(), {radiance.height, radiance.width}, self));
 }
 
-nb::object pixelsOf(nb::handle self) {
+nb::object pixelArray(nb::handle self) {
     const PythonImage& image = imageOf(self);
     const Image& radiance = image.rendering().radiance();
-    const auto* bytes = reinterpret_cast<const uint8_t*>(image.finished().pixels.data());
+    std::span<const uint32_t> pixels;
+    {
+        const nb::gil_scoped_release release;
+        pixels = image.pixels();
+    }
+    const auto* bytes = reinterpret_cast<const uint8_t*>(pixels.data());
     return nb::cast(Bytes(bytes, {radiance.height, radiance.width, 4}, self));
 }
 
@@ -91,31 +100,59 @@ nb::bytes pngOf(const PythonImage& image) {
     const Image& radiance = image.rendering().radiance();
     const std::string png = [&] {
         const nb::gil_scoped_release release;
-        return encodePng(radiance.width, radiance.height, image.finished().pixels,
+        return encodePng(radiance.width, radiance.height, image.pixels(),
                          pngTexts(image.finished().tone.value()));
     }();
     return nb::bytes(png.data(), png.size());
 }
 
+nb::bytes filmOf(const PythonImage& image) {
+    std::string bytes;
+    {
+        const nb::gil_scoped_release release;
+        if (!image.finished().film)
+            throw Error("cannot give the film of this image: the render did not keep it; try "
+                        "samples=(0, N) in place of spp=N");
+        bytes = filmBytes(*image.finished().film);
+    }
+    return nb::bytes(bytes.data(), bytes.size());
+}
+
+nb::bytes pack(const PythonImage& image) {
+    std::string bytes;
+    {
+        const nb::gil_scoped_release release;
+        bytes = imageBytes(image.record());
+    }
+    return nb::bytes(bytes.data(), bytes.size());
+}
+
+std::unique_ptr<PythonImage> unpack(nb::bytes bytes) {
+    const std::string_view view(bytes.c_str(), bytes.size());
+    const nb::gil_scoped_release release;
+    return std::make_unique<PythonImage>(imageFromBytes(view));
+}
+
 void save(const PythonImage& image, const std::string& path) {
     const nb::gil_scoped_release release;
     if (path.ends_with(".json")) {
-        writeFileAtomically(path, reportJson(image.report()));
+        writeFileAtomically(path, image.record().report);
         return;
     }
     Outputs outputs;
     addPicture(outputs, path, "save");
     if (!outputs.exr.empty())
-        writeImageExr(path, image.finished(), image.report());
+        writeImageExr(path, image.finished(), image.record().header);
     else
-        writeImagePng(path, image.finished());
+        writePng(path, image.rendering().radiance().width, image.rendering().radiance().height,
+                 image.pixels(), pngTexts(image.finished().tone.value()));
 }
 
 ComparedImage comparedOf(const PythonImage& image, const std::string& name) {
     ComparedImage compared;
     compared.name = name;
     static_cast<Rendering&>(compared.content) = image.rendering();
-    compared.content.metadata = exrMetadata(image.report());
+    compared.content.metadata = image.record().header;
     return compared;
 }
 
@@ -136,17 +173,28 @@ std::string compareImages(const PythonImage& image, nb::object reference, std::o
 
 } // namespace
 
+std::span<const uint32_t> PythonImage::pixels() const {
+    const std::lock_guard lock(mutex_);
+    FinishedImage& image = record_.image;
+    if (image.pixels.empty())
+        image.pixels = PixelMaker::ofProcess().pixelsOf(image);
+    return image.pixels;
+}
+
 void declareImage(nb::module_& module) {
     nb::class_<PythonImage>(module, "Image")
         .def_prop_ro("width", [](const PythonImage& image) { return image.rendering().radiance().width; })
         .def_prop_ro("height", [](const PythonImage& image) { return image.rendering().radiance().height; })
         .def_prop_ro("complete", &PythonImage::isComplete)
-        .def_prop_ro("report_json", [](const PythonImage& image) { return reportJson(image.report()); })
+        .def_prop_ro("report_json", [](const PythonImage& image) { return image.record().report; })
         .def_prop_ro("layer_names", &layerNames)
         .def("layer", &layerArray, nb::arg("name"))
         .def("layer_variance", &varianceOf, nb::arg("name"))
         .def_prop_ro("samples", &samplesOf)
-        .def_prop_ro("pixels", &pixelsOf)
+        .def_prop_ro("pixels", &pixelArray)
+        .def("film_bytes", &filmOf)
+        .def("pack", &pack)
+        .def_static("unpack", &unpack, nb::arg("data"))
         .def("png", &pngOf)
         .def("save", &save, nb::arg("path"))
         .def("compare", &compareImages, nb::arg("reference"), nb::arg("relmse"), nb::arg("flip"),

@@ -10,7 +10,10 @@
 
 #include "base/error.h"
 #include "cli/options/picture_words.h"
+#include "film/film_bytes.h"
+#include "python/device_use.h"
 #include "python/session_pool.h"
+#include "session/report.h"
 
 namespace lavalight::python {
 
@@ -35,6 +38,7 @@ class Watch {
         }
         return seconds_ <= 0.0 || std::chrono::duration<double>(now - start_).count() < seconds_;
     }
+    [[nodiscard]] bool hasRaised() const { return raised_.has_value(); }
     // Throws what Python raised. With Python's lock.
     void rethrow() {
         if (raised_)
@@ -63,25 +67,10 @@ class Watch {
     std::optional<nb::python_error> raised_;
 };
 
-// Why no render may begin any more; empty: they may. With Python's lock.
-std::string& reasonAgainstRenders() {
-    static auto* reason = new std::string;
-    return *reason;
-}
-bool hasOpenedDevice = false; // with Python's lock
-
 } // namespace
 
-void forbidRenders(const std::string& reason) {
-    if (hasOpenedDevice)
-        reasonAgainstRenders() = reason;
-}
-
-PythonRender::PythonRender(const PythonScene& scene, const std::vector<std::string>& words,
-                           bool isProgressive) {
-    if (!reasonAgainstRenders().empty())
-        throw Error(reasonAgainstRenders());
-    hasOpenedDevice = true;
+PythonRender::PythonRender(const PythonScene& scene, const std::vector<std::string>& words, Use use) {
+    beginDeviceUse();
     const std::shared_ptr<const Scene> loaded = scene.scene();
     const std::string name = scene.name();
     const LightingSettings lighting = scene.lighting();
@@ -90,12 +79,15 @@ PythonRender::PythonRender(const PythonScene& scene, const std::vector<std::stri
     ParsedPicture parsed = parsePicture(name, words);
     parsed.plan.loaded = loaded;
     parsed.plan.settings.lighting = lighting;
-    parsed.plan.settings.stop.isProgressive = isProgressive;
+    parsed.plan.settings.stop.isProgressive = use.isProgressive;
+    if (use.hasGuides)
+        parsed.plan.settings.layers |= kDenoisingLayers;
     device_ = parsed.plan.device;
     session_ = SessionPool::ofProcess().take(std::move(parsed.plan));
-    Outputs pixels;
-    pixels.png = "pixels"; // asks for them; no file is written
-    job_ = session_->prepare(moment, pixels);
+    Outputs wanted;
+    if (!use.isPart)
+        wanted.png = "pixels"; // asks for them; no file is written
+    job_ = session_->prepare(moment, wanted);
 }
 
 PythonRender::~PythonRender() {
@@ -114,11 +106,15 @@ void PythonRender::takeSamples(const RenderJob::KeepGoing& keepGoing) {
     job_->report.renderSeconds = seconds_;
 }
 
-std::unique_ptr<PythonImage> PythonRender::advance(double seconds, nb::object progress) {
-    if (std::exchange(isBusy_, true))
+void PythonRender::requireIdle() const {
+    if (isBusy_)
         throw Error("cannot go on with this render: another thread does; start a render for each");
+}
+
+void PythonRender::work(double seconds, nb::handle progress, const std::function<void()>& finish) {
+    requireIdle();
+    isBusy_ = true;
     Watch watch(seconds, progress);
-    std::unique_ptr<PythonImage> image;
     std::exception_ptr failure;
     {
         const nb::gil_scoped_release release;
@@ -126,8 +122,8 @@ std::unique_ptr<PythonImage> PythonRender::advance(double seconds, nb::object pr
             takeSamples([&](double fraction) { return watch.goesOn(fraction); });
             if (job_->renderer->isDone() && job_->report.stop == StopReason::interrupted)
                 takeSamples([](double) { return true; }); // the time was up with the last wave
-            FinishedImage finished = session_->image(*job_);
-            image = std::make_unique<PythonImage>(std::move(finished), job_->report);
+            if (!watch.hasRaised())
+                finish();
         } catch (...) {
             failure = std::current_exception();
         }
@@ -136,14 +132,58 @@ std::unique_ptr<PythonImage> PythonRender::advance(double seconds, nb::object pr
     watch.rethrow();
     if (failure)
         std::rethrow_exception(failure);
+}
+
+std::unique_ptr<PythonImage> PythonRender::advance(double seconds, nb::object progress) {
+    std::unique_ptr<PythonImage> image;
+    work(seconds, progress, [&] {
+        FinishedImage finished = session_->image(*job_);
+        const RenderReport& report = job_->report;
+        image = std::make_unique<PythonImage>(ImageRecord{std::move(finished), exrMetadata(report),
+                                                          reportJson(report),
+                                                          report.stop != StopReason::interrupted});
+    });
     return image;
 }
 
+void PythonRender::take(uint32_t first, uint32_t end) {
+    requireIdle();
+    const nb::gil_scoped_release release;
+    session_->restart(*job_, {first, end});
+    seconds_ = 0.0;
+}
+
+std::string PythonRender::film(nb::object progress) {
+    std::string bytes;
+    work(0.0, progress, [&] { bytes = filmBytes(job_->film()); });
+    return bytes;
+}
+
 void declareRender(nb::module_& module) {
+    using Words = std::vector<std::string>;
     nb::class_<PythonRender>(module, "Render")
-        .def(nb::init<const PythonScene&, const std::vector<std::string>&, bool>(), nb::arg("scene"),
-             nb::arg("words"), nb::arg("progressive"))
-        .def("advance", &PythonRender::advance, nb::arg("seconds"), nb::arg("progress").none());
+        .def(
+            "__init__",
+            [](PythonRender* self, const PythonScene& scene, const Words& words, bool isProgressive) {
+                new (self) PythonRender(scene, words, {.isProgressive = isProgressive});
+            },
+            nb::arg("scene"), nb::arg("words"), nb::arg("progressive"))
+        .def_static(
+            "of_part",
+            [](const PythonScene& scene, const Words& words, bool hasGuides) {
+                return std::make_unique<PythonRender>(
+                    scene, words, PythonRender::Use{.isPart = true, .hasGuides = hasGuides});
+            },
+            nb::arg("scene"), nb::arg("words"), nb::arg("guides"))
+        .def("take", &PythonRender::take, nb::arg("first"), nb::arg("end"))
+        .def("advance", &PythonRender::advance, nb::arg("seconds"), nb::arg("progress").none())
+        .def(
+            "film",
+            [](PythonRender& self, nb::object progress) {
+                const std::string bytes = self.film(std::move(progress));
+                return nb::bytes(bytes.data(), bytes.size());
+            },
+            nb::arg("progress").none());
 }
 
 } // namespace lavalight::python

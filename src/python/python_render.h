@@ -16,9 +16,14 @@ namespace lavalight::python {
 
 class PythonRender {
   public:
-    // Opens the device and compiles kernels. `isProgressive`: every pixel soon has a sample. Throws Error or
-    // UsageError.
-    PythonRender(const PythonScene& scene, const std::vector<std::string>& words, bool isProgressive);
+    // What a render is for.
+    struct Use {
+        bool isProgressive = false; // every pixel soon has a sample
+        bool isPart = false;        // film() alone is wanted of it, and no picture
+        bool hasGuides = false;     // its film has what denoising reads
+    };
+    // Opens the device and compiles kernels. Throws Error or UsageError.
+    PythonRender(const PythonScene& scene, const std::vector<std::string>& words, Use use);
     ~PythonRender();
     PythonRender(const PythonRender&) = delete;
     PythonRender& operator=(const PythonRender&) = delete;
@@ -26,8 +31,15 @@ class PythonRender {
     // Takes samples for so many seconds, or to the end where `seconds` is 0, and gives the image so far.
     // `progress`: called with the fraction done, or none. Throws what Python's signal handlers raise.
     [[nodiscard]] std::unique_ptr<PythonImage> advance(double seconds, nanobind::object progress);
+    // Begins with other samples of each pixel, and an empty film.
+    void take(uint32_t first, uint32_t end);
+    // Takes all samples, and gives the bytes of their film.
+    [[nodiscard]] std::string film(nanobind::object progress);
 
   private:
+    // Takes samples as advance() does, and calls `finish` for what is to come of them, without Python's lock.
+    void work(double seconds, nanobind::handle progress, const std::function<void()>& finish);
+    void requireIdle() const;
     void takeSamples(const RenderJob::KeepGoing& keepGoing);
 
     gpu::DeviceConfig device_;
@@ -36,9 +48,6 @@ class PythonRender {
     double seconds_ = 0.0; // of rendering, so far
     bool isBusy_ = false;
 };
-
-// Makes every render of this process throw Error with that message, once a device has been opened in it.
-void forbidRenders(const std::string& reason);
 
 // Declares the class in the module.
 void declareRender(nanobind::module_& module);

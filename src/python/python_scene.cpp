@@ -35,7 +35,7 @@ struct MaterialView {
 
     [[nodiscard]] PythonScene& scene() const { return nb::cast<PythonScene&>(owner); }
     [[nodiscard]] const Material& get() const { return scene().scene()->materials.at(index); }
-    [[nodiscard]] Material& change() const { return scene().change().materials.at(index); }
+    [[nodiscard]] Material& change(const char* property) const { return scene().change(index, property); }
 };
 
 void requireIn(const char* name, double value, double least, double most) {
@@ -50,7 +50,7 @@ void defineNumber(nb::class_<MaterialView>& view, const char* name, double least
         name, [](const MaterialView& material) { return material.get().*Member; },
         [=](const MaterialView& material, float value) {
             requireIn(name, value, least, most);
-            material.change().*Member = value;
+            material.change(name).*Member = value;
         });
 }
 
@@ -66,7 +66,7 @@ void defineColor(nb::class_<MaterialView>& view, const char* name, double most) 
         [=](const MaterialView& material, Vector3 value) {
             for (const float channel : value)
                 requireIn(name, channel, 0.0, most);
-            material.change().*Member = {value[0], value[1], value[2]};
+            material.change(name).*Member = {value[0], value[1], value[2]};
         });
 }
 
@@ -153,10 +153,11 @@ PythonScene::PythonScene(const std::string& name, std::string_view bytes,
     scene_ = std::make_shared<Scene>(std::move(scene));
 }
 
-Scene& PythonScene::change() {
+Material& PythonScene::change(size_t material, const std::string& property) {
     if (scene_.use_count() > 1)
         scene_ = std::make_shared<Scene>(*scene_);
-    return *scene_;
+    changes_.emplace(material, property);
+    return scene_->materials.at(material);
 }
 
 void declareScene(nb::module_& module) {
@@ -171,6 +172,13 @@ void declareScene(nb::module_& module) {
             },
             nb::arg("name"), nb::arg("data"), nb::arg("words"))
         .def_prop_ro("name", &PythonScene::name)
+        .def_prop_ro("environment", [](const PythonScene& scene) { return scene.lighting().mapFile; })
+        .def("name_environment", &PythonScene::nameEnvironment, nb::arg("name"))
+        .def_prop_ro("changes",
+                     [](const PythonScene& scene) {
+                         const PythonScene::Changes& changes = scene.changes();
+                         return std::vector<std::pair<size_t, std::string>>(changes.begin(), changes.end());
+                     })
         .def_prop_ro("warnings", [](const PythonScene& scene) { return scene.scene()->warnings; })
         .def_prop_ro("triangles", [](const PythonScene& scene) { return scene.scene()->triangleCount(); })
         .def_prop_ro("materials", &materialsOf)

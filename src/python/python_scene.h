@@ -2,7 +2,9 @@
 #pragma once
 
 #include <memory>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <nanobind/nanobind.h>
@@ -24,14 +26,21 @@ class PythonScene {
     [[nodiscard]] const std::string& name() const { return name_; }
     [[nodiscard]] const LightingSettings& lighting() const { return lighting_; }
     [[nodiscard]] const ImportOptions& moment() const { return moment_; }
-    // The scene for a change. Renders that are under way keep the one that they began with.
-    [[nodiscard]] Scene& change();
+    // A material for a change of the property of that name. Renders that are under way keep the scene that
+    // they began with.
+    [[nodiscard]] Material& change(size_t material, const std::string& property);
+    // Which properties of which materials were changed.
+    using Changes = std::set<std::pair<size_t, std::string>>;
+    [[nodiscard]] const Changes& changes() const { return changes_; }
+    // What headers call the environment map, wherever it was read from.
+    void nameEnvironment(const std::string& name) { lighting_.mapFile = name; }
 
   private:
     std::string name_;
     LightingSettings lighting_;
     ImportOptions moment_;
     std::shared_ptr<Scene> scene_;
+    Changes changes_;
 };
 
 // Declares scenes, their materials, and renders in the module.

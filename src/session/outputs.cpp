@@ -116,11 +116,11 @@ PngTexts pngTexts(const ToneSettings& tone) {
             {"lavalight:exposure", fmt::format("{}", tone.exposure)}};
 }
 
-void addDenoised(RenderReport& report, Rendering& rendering, const Denoiser& denoiser, DenoiseQuality quality,
-                 uint32_t asked, bool isSharp) {
+void addDenoised(std::vector<LedgerEntry>& ledger, Rendering& rendering, const Denoiser& denoiser,
+                 DenoiseQuality quality, uint32_t asked, bool isSharp) {
     denoise(rendering, denoiser, quality, asked, isSharp);
-    report.ledger.push_back({"denoised", fmt::format("the PNG and the layer {}, by Open Image Denoise {}, {}",
-                                                     kDenoisedLayer, denoiser.version(), nameOf(quality))});
+    ledger.push_back({"denoised", fmt::format("the PNG and the layer {}, by Open Image Denoise {}, {}",
+                                              kDenoisedLayer, denoiser.version(), nameOf(quality))});
 }
 
 std::vector<uint32_t> denoisedPixels(const Rendering& rendering, ToneMapper& toneMapper,
@@ -141,16 +141,16 @@ FinishedImage finishImage(RenderJob& job, OutputStyle& style, ToneMapper* toneMa
     fillResults(report, *job.renderer, *job.device, rendering, job.scene);
     if (style.denoiser) {
         const bool isSharp = job.renderer->frame().lensRadius == 0.0f;
-        addDenoised(report, rendering, *style.denoiser, style.quality, style.layers, isSharp);
+        addDenoised(report.ledger, rendering, *style.denoiser, style.quality, style.layers, isSharp);
         job.watch.lap("denoise");
     }
     if (report.tallies.crowdedPaths > 0)
         warn(report, crowdedText(job.scene, report.tallies));
     report.rays = report.rays + job.before.rays;
+    image.holdsFilm = style.keepsFilm;
     if (style.keepsFilm)
         image.film = job.film();
-    else
-        addIdLayers(job.renderer->film().ids(), rendering.sampleCounts, exrMetadata(report), image.ids);
+    addIdLayers(job.renderer->film().ids(), rendering.sampleCounts, exrMetadata(report), image.ids);
     addPartsOfStages(report, job);
     if (toneMapper == nullptr)
         return image;
@@ -170,12 +170,11 @@ FinishedImage finishImage(RenderJob& job, OutputStyle& style, ToneMapper* toneMa
     return image;
 }
 
-void writeImageExr(const std::filesystem::path& path, const FinishedImage& image,
-                   const RenderReport& report) {
-    if (image.film)
-        writeFilmFile(path, *image.film, denoisedLayers(image.rendering));
+void writeImageExr(const std::filesystem::path& path, const FinishedImage& image, const Metadata& metadata) {
+    if (image.holdsFilm)
+        writeFilmFile(path, image.film.value(), denoisedLayers(image.rendering));
     else
-        writeExr(path, image.rendering, exrMetadata(report), image.ids);
+        writeExr(path, image.rendering, metadata, image.ids);
 }
 
 void writeImagePng(const std::filesystem::path& path, const FinishedImage& image) {
@@ -188,7 +187,7 @@ void writeOutputs(RenderJob& job, const Outputs& outputs, OutputStyle& style, To
     assert(outputs.png.empty() || toneMapper != nullptr);
     const FinishedImage image = finishImage(job, style, outputs.png.empty() ? nullptr : toneMapper);
     if (!outputs.exr.empty())
-        writeImageExr(outputs.exr, image, job.report);
+        writeImageExr(outputs.exr, image, exrMetadata(job.report));
     if (!outputs.png.empty())
         writeImagePng(outputs.png, image);
     job.watch.lap("write");

@@ -53,7 +53,8 @@ struct OutputStyle {
 struct FinishedImage {
     Rendering rendering;
     ExrContents ids;                    // layers of ids
-    std::optional<FilmFile> film;       // where the EXR file holds it
+    std::optional<FilmFile> film;       // where it is needed later
+    bool holdsFilm = false;             // the EXR file holds the film
     std::optional<ToneSettings> tone{}; // of the pixels
     std::vector<uint32_t> pixels;       // sRGB with alpha, as PNG files hold them; empty: none were asked for
 };
@@ -62,8 +63,8 @@ struct FinishedImage {
 // there is a tone mapper. Throws Error.
 [[nodiscard]] FinishedImage finishImage(RenderJob& job, OutputStyle& style, ToneMapper* toneMapper);
 
-// Throws Error.
-void writeImageExr(const std::filesystem::path& path, const FinishedImage& image, const RenderReport& report);
+// `metadata`: exrMetadata() of a file without a film. Throws Error.
+void writeImageExr(const std::filesystem::path& path, const FinishedImage& image, const Metadata& metadata);
 void writeImagePng(const std::filesystem::path& path, const FinishedImage& image);
 
 // Writes the image so far: finishImage() and its files. `toneMapper` may be null where there is no PNG.
@@ -72,9 +73,9 @@ void writeOutputs(RenderJob& job, const Outputs& outputs, OutputStyle& style, To
 // Text chunks of a PNG.
 [[nodiscard]] PngTexts pngTexts(const ToneSettings& tone);
 
-// Denoises the rendering (denoise()), and says so in the report's ledger. Throws Error.
-void addDenoised(RenderReport& report, Rendering& rendering, const Denoiser& denoiser, DenoiseQuality quality,
-                 uint32_t asked, bool isSharp);
+// Denoises the rendering (denoise()), and says so in the ledger. Throws Error.
+void addDenoised(std::vector<LedgerEntry>& ledger, Rendering& rendering, const Denoiser& denoiser,
+                 DenoiseQuality quality, uint32_t asked, bool isSharp);
 // Pixels of the layer kDenoisedLayer, which the rendering must have.
 [[nodiscard]] std::vector<uint32_t> denoisedPixels(const Rendering& rendering, ToneMapper& toneMapper,
                                                    const ToneSettings& tone);

@@ -199,6 +199,16 @@ void RenderSession::reload(RenderJob& job) {
     job.watch.lap("prepare");
 }
 
+void RenderSession::restart(RenderJob& job, const SampleRange& samples) {
+    job.watch = Stopwatch();
+    plan_.settings.image.firstSample = samples.first;
+    plan_.settings.stop.samples = samples.end - samples.first;
+    checkSettings(plan_.settings);
+    job.renderer->restart(job.scene, job.camera, plan_.settings, source_);
+    job.before = {};
+    job.watch.lap("prepare");
+}
+
 void RenderSession::render(RenderJob& job, Checkpoint& checkpoint, bool resumes,
                            const RenderJob::KeepGoing& keepGoing) {
     job.describeInputs(plan_.settings.provenance.changedShaders);

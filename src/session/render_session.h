@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "film/sample_ranges.h"
 #include "gltf/import_options.h"
 #include "gpu/device.h"
 #include "kernels/shader_overlay.h"
@@ -75,6 +76,9 @@ class RenderSession {
                                                           const KernelSource& source) const;
     // Goes on with the shaders of use() and an empty film. Throws Error with the job as it was.
     void reload(RenderJob& job);
+
+    // Goes on with other samples of the same image, and an empty film: the scene stays on the device.
+    void restart(RenderJob& job, const SampleRange& samples);
 
     // Takes the job's samples, goes on from the checkpoint first if `resumes`, and keeps it up to date.
     void render(RenderJob& job, Checkpoint& checkpoint, bool resumes, const RenderJob::KeepGoing& keepGoing);

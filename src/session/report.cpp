@@ -5,6 +5,7 @@
 
 #include "base/os/machine.h"
 #include "base/version.h"
+#include "film/film_cost.h"
 #include "film/id_layers.h"
 #include "render/phase.h"
 #include "render/setting_names.h"
@@ -48,6 +49,10 @@ Json kernelsJson(const gpu::KernelTimes& kernels) {
     return json;
 }
 
+std::string textOf(const Json& json) {
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
 Json stagesJson(const StageTimes& stages) {
     Json json = Json::object();
     for (const auto& [name, seconds] : stages)
@@ -60,15 +65,6 @@ Json raysJson(const RenderReport& report) {
             {"indirect", report.rays.indirect},
             {"shadow", report.rays.shadow},
             {"perSecond", perSecond(report.rays.total(), report.renderSeconds)}};
-}
-
-// Sobol's samples are correlated, so that the film's variance overstates theirs.
-Json errorJson(const RenderReport& report) {
-    const double cost = report.meanVariance * report.renderSeconds;
-    return {{"meanVariance", report.meanVariance},
-            {"estimatedRelMse", report.errorEstimate},
-            {"isUpperBound", report.settings.estimator.sampler == Sampler::sobol},
-            {"efficiency", cost > 0.0 ? 1.0 / cost : 0.0}};
 }
 
 Json phasesJson(const RenderSettings& settings) {
@@ -103,11 +99,54 @@ std::vector<std::string> materialNames(const Scene& scene) {
     return names;
 }
 
+Json samplesJson(const RenderReport& report) {
+    return {{"total", report.samples},
+            {"perSecond", perSecond(report.samples, report.renderSeconds)},
+            {"dropped", report.tallies.droppedSamples},
+            {"negative", report.tallies.negativeSamples}};
+}
+
+Json toneJson(const ToneSettings& tone) {
+    return {{"tonemap", nameOf(tone.curve)}, {"exposure", tone.exposure}};
+}
+
+Json errorJson(const RenderReport& report, bool isUpperBound) {
+    const double cost = report.meanVariance * report.renderSeconds;
+    return {{"meanVariance", report.meanVariance},
+            {"estimatedRelMse", report.errorEstimate},
+            {"isUpperBound", isUpperBound},
+            {"efficiency", cost > 0.0 ? 1.0 / cost : 0.0}};
+}
+
+Json meanJson(const RenderReport& report) {
+    return {report.meanRadiance.x, report.meanRadiance.y, report.meanRadiance.z};
+}
+
 glm::dvec3 meanOf(const Image& image) {
     glm::dvec3 sum(0.0);
     for (const glm::vec3& pixel : image.pixels)
         sum += glm::dvec3(pixel);
     return sum / static_cast<double>(image.pixels.size());
+}
+
+// The estimates of a rendering as a whole.
+void fillMeans(RenderReport& report, const Rendering& rendering) {
+    report.samples = rendering.samples();
+    report.meanRadiance = meanOf(rendering.radiance());
+    const glm::dvec3 variance = meanOf(rendering.variance());
+    report.meanVariance = (variance.x + variance.y + variance.z) / 3.0;
+    report.errorEstimate = errorEstimate(rendering);
+}
+
+constexpr std::string_view kOption = "option:";
+constexpr std::string_view kSobol = "sobol"; // as describe() has the sampler
+
+Json optionsJson(const Metadata& metadata) {
+    Json json = Json::object();
+    for (const auto& [key, value] : metadata)
+        if (key.starts_with(kOption))
+            json[key.substr(kOption.size())] = value;
+    return json;
 }
 
 } // namespace
@@ -132,11 +171,7 @@ void fillResults(RenderReport& report, const Renderer& renderer, const gpu::Devi
     report.tallies = renderer.film().readTallies();
     report.sceneBytes = renderer.scene().bytes();
     report.peakDeviceBytes = device.peakAllocatedBytes();
-    report.samples = rendering.samples();
-    report.meanRadiance = meanOf(rendering.radiance());
-    const glm::dvec3 variance = meanOf(rendering.variance());
-    report.meanVariance = (variance.x + variance.y + variance.z) / 3.0;
-    report.errorEstimate = errorEstimate(rendering);
+    fillMeans(report, rendering);
     report.ledger = makeLedger(scene, report.settings, report.tallies, report.stop);
 }
 
@@ -161,7 +196,7 @@ Metadata exrMetadata(const RenderReport& report) {
     for (const auto& [layer, names] : report.idNames)
         metadata.emplace_back(namesKey(layer), textOf(names));
     for (const auto& [key, value] : describeOptions(report))
-        metadata.emplace_back("option:" + key, value);
+        metadata.emplace_back(std::string(kOption) + key, value);
     for (const auto& [part, hash] : report.content)
         metadata.emplace_back("content:" + part, hash);
     return metadata;
@@ -182,7 +217,7 @@ std::string reportJson(const RenderReport& report) {
     json["processor"] = processorKind();
     json["settings"] = pairsJson(describeOptions(report));
     if (report.tone)
-        json["png"] = {{"tonemap", nameOf(report.tone->curve)}, {"exposure", report.tone->exposure}};
+        json["png"] = toneJson(*report.tone);
     json["phases"] = phasesJson(report.settings);
     json["waveSize"] = report.settings.work.waveSize;
     json["complete"] = report.stop != StopReason::interrupted;
@@ -190,16 +225,51 @@ std::string reportJson(const RenderReport& report) {
     json["seconds"] = stagesJson(report.stages);
     json["kernels"] = kernelsJson(report.kernels);
     json["rays"] = raysJson(report);
-    json["samples"] = {{"total", report.samples},
-                       {"perSecond", perSecond(report.samples, report.renderSeconds)},
-                       {"dropped", report.tallies.droppedSamples},
-                       {"negative", report.tallies.negativeSamples}};
-    json["meanRadiance"] = {report.meanRadiance.x, report.meanRadiance.y, report.meanRadiance.z};
-    json["error"] = errorJson(report);
+    json["samples"] = samplesJson(report);
+    json["meanRadiance"] = meanJson(report);
+    // Sobol's samples are correlated, so that the film's variance overstates theirs.
+    json["error"] = errorJson(report, report.settings.estimator.sampler == Sampler::sobol);
     json["memory"] = {{"sceneBytes", report.sceneBytes}, {"peakDeviceBytes", report.peakDeviceBytes}};
     json["ledger"] = ledgerJson(report.ledger);
     json["warnings"] = report.warnings;
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return textOf(json);
+}
+
+std::string filmReportJson(const FilmFile& film, const Rendering& rendering,
+                           const std::vector<LedgerEntry>& ledger, const std::optional<ToneSettings>& tone) {
+    const auto header = [&](const char* key) { return valueOf(film.metadata, key); };
+    const FilmCost cost = costOf(film);
+    RenderReport report;
+    report.renderSeconds = cost.seconds;
+    report.rays = cost.rays;
+    report.tallies = readable(film.film.tallies);
+    fillMeans(report, rendering);
+    Json json;
+    for (const char* key : {"version", "commit", "scene", "camera"})
+        json[key] = header(key);
+    json["device"] = {{"name", header("device")}, {"driver", header("driver")}};
+    json["settings"] = optionsJson(film.metadata);
+    if (tone)
+        json["png"] = toneJson(*tone);
+    json["complete"] = film.isComplete();
+    json["stoppedBy"] = nameOf(film.isComplete() ? StopReason::samples : StopReason::interrupted);
+    json["ranges"] = textOf(film.ranges);
+    json["seconds"] = {{"render", report.renderSeconds}};
+    json["rays"] = raysJson(report);
+    json["samples"] = samplesJson(report);
+    json["meanRadiance"] = meanJson(report);
+    json["error"] = errorJson(report, header("option:sampler") == kSobol);
+    json["ledger"] = ledgerJson(ledger);
+    json["warnings"] = Json::array();
+    return textOf(json);
+}
+
+Metadata exrMetadata(const FilmFile& film, const std::vector<LedgerEntry>& ledger) {
+    Metadata metadata = film.metadata;
+    std::erase_if(metadata,
+                  [](const auto& pair) { return pair.first == kRaysKey || pair.first == kSettingsLedger; });
+    setValue(metadata, "bias-ledger", ledgerText(ledger));
+    return metadata;
 }
 
 } // namespace lavalight

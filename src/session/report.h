@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "film/film_file.h"
 #include "gltf/import_options.h"
 #include "gpu/device.h"
 #include "image/exr.h"
@@ -57,5 +58,14 @@ void fillResults(RenderReport& report, const Renderer& renderer, const gpu::Devi
 
 [[nodiscard]] Metadata exrMetadata(const RenderReport& report);
 [[nodiscard]] std::string reportJson(const RenderReport& report);
+
+// The same of a film that was rendered elsewhere: what its header and its samples say. `rendering`: the
+// film's; `ledger`: its header's, and what has been done to the rendering since.
+[[nodiscard]] std::string filmReportJson(const FilmFile& film, const Rendering& rendering,
+                                         const std::vector<LedgerEntry>& ledger,
+                                         const std::optional<ToneSettings>& tone);
+// The header of a file that shows such a film and does not hold it: exrMetadata() of one render of all its
+// samples.
+[[nodiscard]] Metadata exrMetadata(const FilmFile& film, const std::vector<LedgerEntry>& ledger);
 
 } // namespace lavalight

@@ -37,7 +37,7 @@ std::string saveImage(const LiveSide& side, const SavedPicture& picture, ToneMap
     Rendering rendering = side.renderer().rendering();
     RenderReport report = reportOf(side, device, rendering, picture.isDenoised);
     if (picture.isDenoised)
-        addDenoised(report, rendering, Denoiser(), request.quality, request.asked,
+        addDenoised(report.ledger, rendering, Denoiser(), request.quality, request.asked,
                     side.renderer().frame().lensRadius == 0.0f);
     else
         removeGuides(rendering, request.asked);

@@ -28,6 +28,11 @@ constexpr unsigned kMostThreads = 1024;
 
 } // namespace
 
+void limitAllThreads(unsigned threads) {
+    ::setenv("LP_NUM_THREADS", std::to_string(threads).c_str(), 1); // lavapipe's
+    limitThreads(threads);
+}
+
 DeviceOptions::DeviceOptions(CLI::App& parser) {
     parser.add_option("--device", config_.wanted, "Vulkan device by name or index (see lavalight devices)")
         ->type_name("NAME|INDEX");
@@ -39,11 +44,7 @@ DeviceOptions::DeviceOptions(CLI::App& parser) {
         ->default_str("any");
     parser
         .add_option_function<unsigned>(
-            "--threads",
-            [](unsigned threads) {
-                ::setenv("LP_NUM_THREADS", std::to_string(threads).c_str(), 1); // lavapipe's
-                limitThreads(threads);
-            },
+            "--threads", limitAllThreads,
             "Threads of lavapipe, of rays on the host, of loading and of denoising; default: the processors")
         ->type_name("N")
         ->check(CLI::Validator(

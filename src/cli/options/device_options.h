@@ -7,6 +7,9 @@
 
 namespace lavalight {
 
+// Lets lavapipe and loops on the host use so many threads. To be said before a device is opened.
+void limitAllThreads(unsigned threads);
+
 // Declares options on a parser. Must outlive the parsing; the parser points into it.
 class DeviceOptions {
   public:
