@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import hashlib
-import json
 import os
 import struct
 import tempfile
@@ -70,20 +69,12 @@ def _stamp(path: Path) -> tuple[int, int]:
     return found.st_mtime_ns, found.st_size
 
 
-def _refers_to_files(data: bytes) -> bool:
-    """Whether a .glb file is not all there is of its scene."""
-    length = struct.unpack_from("<I", data, 12)[0]
-    values = json.loads(data[20:20 + length])
-    return any(not str(part["uri"]).startswith("data:") for section in ("buffers", "images") for part in values.get(section, [])
-               if "uri" in part)
+def pack(path: str | os.PathLike[str], *, allow_external: bool = False) -> bytes:
+    """The bytes of a .glb file with all that a .gltf or .glb file refers to, as ``lavalight pack`` writes it.
 
-
-def pack(path: str | os.PathLike[str]) -> bytes:
-    """The bytes of a .glb file that holds all that a .gltf or .glb file refers to."""
-    data = Path(path).read_bytes()
-    if data[:4] != b"glTF" or _refers_to_files(data):
-        raise _lavalight.Error(f"cannot pack {os.fspath(path)}: it refers to other files; try a .glb file with everything inside")
-    return data
+    allow_external: it may refer to files outside its folder. Raises Error for a file that is no scene.
+    """
+    return _lavalight.pack(os.fspath(path), allow_external)
 
 
 def model_of(scene: _lavalight.Scene, origin: Origin) -> Model:
@@ -94,7 +85,7 @@ def model_of(scene: _lavalight.Scene, origin: Origin) -> Model:
     if origin.path is not None:
         if _stamp(origin.path) != origin.stamp:
             raise _lavalight.Error(f"cannot send {scene.name}: the file has changed since it was loaded; try to load it again")
-        data = pack(origin.path)
+        data = pack(origin.path, allow_external="--allow-external" in origin.words)
     environment = None
     if scene.environment:
         path = Path(scene.environment)

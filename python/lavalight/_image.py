@@ -182,11 +182,12 @@ def _unpickled(data: bytes) -> Image:
 SHOWN = frozenset({"tonemap", "exposure", "background", "denoise"})
 
 
-def merge(parts: Iterable[Image | bytes | str | os.PathLike[str]], **keywords: Any) -> Image:
+def merge(parts: Iterable[Image | bytes | str | os.PathLike[str]], *, statistical: bool = False, **keywords: Any) -> Image:
     """Joins parts of one image, and gives it with the bits that one render of all samples has.
 
     Parts are images, the bytes of film_bytes(), or EXR files; they were rendered with samples=(first, end), and hold different
-    samples or different parts of the image. tonemap, exposure, background and denoise are those of render(). Raises Error where
+    samples or different parts of the image. statistical: parts of different devices and processors are joined, too, whose means are
+    equal and whose bits are not. tonemap, exposure, background and denoise are those of render(). Raises Error where
     parts do not fit together. What a part cannot tell is not in the report: stages, kernels, memory.
     """
     for keyword in keywords:
@@ -199,7 +200,7 @@ def merge(parts: Iterable[Image | bytes | str | os.PathLike[str]], **keywords: A
         if film is None:
             film = more
         else:
-            film.add(more)
+            film.add(more, statistical)
     if film is None:
         raise ValueError("merge() needs parts, and there are none")
     return Image(film.develop(words, True, True))

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import atexit
 import os
-import platform
 import threading
 import time
 from collections import OrderedDict
@@ -15,16 +14,12 @@ from distributed import Reschedule, Status, get_worker
 
 from . import _lavalight
 from ._bundle import Choice, Model, load
+from ._image import Image
 
 TOPIC = "lavalight-progress"
-MOST_SCENES = 2  # that a process keeps loaded
+MOST_SCENES = 3  # that a process keeps loaded: of a frame, the next one and the first one
 TELL_EVERY = 0.5  # seconds between two words on progress
 PATIENCE = 2.0  # seconds that a task waits for its process before it asks for another one
-
-# What a processor can do that compilers and libraries choose code by.
-ABILITIES = frozenset({"sse4_1", "sse4_2", "avx", "avx2", "fma", "f16c", "bmi2", "avx512f", "avx512bw", "avx512dq", "avx512vl",
-                       "asimd", "sve", "sve2"})
-
 
 @dataclass(frozen=True)
 class Part:
@@ -32,11 +27,10 @@ class Part:
 
     film: bytes
     worker: str
-    processor: str
 
 
 @dataclass(frozen=True)
-class Task:
+class PartTask:
     """A part as it is asked for."""
 
     job: str
@@ -45,30 +39,28 @@ class Task:
     samples: tuple[int, int]
 
 
-def processor() -> str:
-    """Who made this processor, and what of ABILITIES it has."""
-    maker, flags = "", set[str]()
-    try:
-        with open("/proc/cpuinfo", encoding="utf-8") as file:
-            for line in file:
-                name, _, value = line.partition(":")
-                if name.strip() in ("vendor_id", "CPU implementer"):
-                    maker = value.strip()
-                elif name.strip() in ("flags", "Features"):
-                    flags = set(value.split())
-                if not line.strip():
-                    break
-    except OSError:
-        pass
-    return " ".join([platform.machine(), maker, *sorted(flags & ABILITIES)])
+@dataclass(frozen=True)
+class FrameTask:
+    """A frame of an animation as it is asked for."""
+
+    job: str
+    words: tuple[str, ...]
+    number: int
+    first: Choice  # of the animation's first frame, which decides where the camera is
+    choice: Choice
+    next: Choice | None  # of the frame that follows, where the layer of motion is asked for
 
 
 class _Watch:
     """Asked about twenty times a second while a task renders: tells how far it is, and ends it where nobody waits for it."""
 
     def __init__(self, job: str, name: Any) -> None:
-        self._worker = get_worker()
-        self._key = self._worker.get_current_task()
+        try:
+            self._worker: Any = get_worker()
+        except ValueError:  # another scheduler of Dask's runs the task, which cannot be cancelled
+            self._worker = None
+        else:
+            self._key = self._worker.get_current_task()
         self._job = job
         self._name = name
         self._told = time.monotonic()
@@ -78,10 +70,23 @@ class _Watch:
         now = time.monotonic()
         if now - self._told >= TELL_EVERY:
             self._told = now
-            self._worker.log_event(TOPIC, {"job": self._job, "task": self._name, "fraction": fraction})
+            if self._worker is not None:
+                self._worker.log_event(TOPIC, {"job": self._job, "task": self._name, "fraction": fraction})
+
+    @property
+    def threads(self) -> int:
+        """How many threads the worker may use."""
+        every = os.cpu_count() or 1
+        return every if self._worker is None else min(every, self._worker.state.nthreads)
+
+    @property
+    def can_wait_elsewhere(self) -> bool:
+        return self._worker is not None
 
     def require_wanted(self) -> None:
         """Raises Reschedule where the task was cancelled, or the worker closes. A cancelled task is not run again."""
+        if self._worker is None:
+            return
         task = self._worker.state.tasks.get(self._key)
         is_wanted = task is not None and task.state in ("executing", "long-running")
         if not is_wanted or self._worker.status in (Status.closing, Status.closed, Status.failed):
@@ -103,21 +108,17 @@ class _Process:
         start = time.monotonic()
         while not self._lock.acquire(timeout=0.1):
             watch.require_wanted()
-            if time.monotonic() - start > PATIENCE:
+            if watch.can_wait_elsewhere and time.monotonic() - start > PATIENCE:
                 raise Reschedule
-        self._limit_threads()
+        if not self._is_limited and watch.threads < (os.cpu_count() or 1):
+            _lavalight.limit_threads(watch.threads)
+        self._is_limited = True
 
     def forget_render(self) -> None:
         self._render = None
 
     def give_back(self) -> None:
         self._lock.release()
-
-    def _limit_threads(self) -> None:
-        threads = get_worker().state.nthreads
-        if not self._is_limited and threads < (os.cpu_count() or 1):
-            _lavalight.limit_threads(threads)
-        self._is_limited = True
 
     def scene(self, model: Model, choice: Choice) -> _lavalight.Scene:
         key = (model.key, choice)
@@ -128,7 +129,7 @@ class _Process:
         self._scenes.move_to_end(key)
         return self._scenes[key]
 
-    def render(self, model: Model, choice: Choice, task: Task) -> _lavalight.Render:
+    def render(self, model: Model, choice: Choice, task: PartTask) -> _lavalight.Render:
         """The render of the task before where only samples differ: its scene is on the device."""
         wanted = (model.key, choice, task.words, task.guides)
         render, self._render = self._render, None
@@ -149,7 +150,7 @@ _process = _Process()
 atexit.register(_process.forget_render)  # before the drivers end with the process
 
 
-def render_part(task: Task, model: Model, choice: Choice) -> Part:
+def render_part(task: PartTask, model: Model, choice: Choice) -> Part:
     """A task of Dask's: the film of some samples."""
     watch = _Watch(task.job, task.samples)
     _process.take(watch)
@@ -162,7 +163,26 @@ def render_part(task: Task, model: Model, choice: Choice) -> Part:
         raise
     finally:
         _process.give_back()
-    return Part(film, get_worker().address, processor())
+    return Part(film, get_worker().address)
+
+
+def render_frame(task: FrameTask, model: Model) -> tuple[int, Image]:
+    """A task of Dask's: a frame and its number."""
+    watch = _Watch(task.job, task.number)
+    _process.take(watch)
+    try:
+        _process.forget_render()
+        first = _process.scene(model, task.first)
+        following = _process.scene(model, task.next) if task.next is not None else None
+        render = _lavalight.Render.of_frame(first, _process.scene(model, task.choice), following, list(task.words))
+        return task.number, Image(render.advance(0.0, watch))
+    finally:
+        _process.give_back()
+
+
+def render_frames(tasks: list[FrameTask], model: Model) -> list[tuple[int, Image]]:
+    """A task of Dask's: a partition of a bag."""
+    return [render_frame(task, model) for task in tasks]
 
 
 def same(model: Model) -> Model:

@@ -14,11 +14,11 @@ from __future__ import annotations
 import queue
 import time
 import uuid
-import weakref
 from collections import OrderedDict
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
 from concurrent.futures import CancelledError
-from contextlib import suppress
+from contextlib import closing, suppress
+from dataclasses import replace
 from typing import Any
 
 from . import _bundle, _keywords, _lavalight
@@ -35,7 +35,7 @@ try:
 except ImportError as error:
     raise ImportError(f"cannot import lavalight.distributed: {error}; try pip install \"lavalight[distributed]\"") from error
 
-__all__ = ["progressive", "render"]
+__all__ = ["bag", "frames", "progressive", "render"]
 
 PARTS_PER_WORKER = 4  # by default: a lost worker loses a quarter of its work, and slow ones leave more to others
 FEWEST_SAMPLES = 8  # of a part, by default
@@ -48,26 +48,26 @@ Progress = bool | str | Callable[[float], object] | None
 ENDLESS = {"time": "a time", "target_error": "an error"}
 
 
-def render(scene: Scene, *, client: Any = None, parts: int | None = None, priority: int = 0, retries: int = 0,
-           progress: Progress = True, **keywords: Any) -> Image:
+def render(scene: Scene, *, client: Any = None, parts: int | None = None, statistical: bool = False, priority: int = 0,
+           retries: int = 0, progress: Progress = True, **keywords: Any) -> Image:
     """Renders an image in parts, on the workers of a Dask cluster. It has the bits of ``scene.render()``.
 
     client: a dask.distributed.Client; None: the one that is there. parts: of how many samples each are taken is up to it; None: by
-    samples and workers. priority, retries: as Client.submit() has them; parts of lost workers are rendered again without retries.
+    samples and workers. statistical: workers may be of different kinds, whose samples have equal means and not equal bits. priority, retries: as Client.submit() has them; parts of lost workers are rendered again without retries.
     progress: True shows a bar in a notebook or a terminal, "bar" in any case; or a function that takes the fraction done. All other
     keywords are those of ``scene.render()`` but time and target_error.
 
     Raises lavalight.Error as a render and merge() do. Ctrl-C and whatever progress raises end the renders on the workers.
     """
     image = None
-    for image in _images(scene, client, parts, priority, retries, progress, float("inf"), keywords, "render"):
+    for image in _images(scene, client, parts, float("inf"), statistical, priority, retries, progress, keywords, "render"):
         pass
     assert image is not None
     return image
 
 
-def progressive(scene: Scene, *, client: Any = None, parts: int | None = None, every: float = 0.5, priority: int = 0, retries: int = 0,
-                progress: Progress = None, **keywords: Any) -> Iterator[Image]:
+def progressive(scene: Scene, *, client: Any = None, parts: int | None = None, every: float = 0.5, statistical: bool = False,
+                priority: int = 0, retries: int = 0, progress: Progress = None, **keywords: Any) -> Iterator[Image]:
     """Yields the image of all parts that have arrived, at most every so many seconds, and at last of all.
 
     Each is the mean of the samples that it has, in whatever order they came. The last image is that of render(). Leaving the loop, or
@@ -75,7 +75,38 @@ def progressive(scene: Scene, *, client: Any = None, parts: int | None = None, e
     """
     if not every >= 0.0:
         raise ValueError(f"every: {every!r} is not a time of 0 or more")
-    return _images(scene, client, parts, priority, retries, progress, every, keywords, "progressive")
+    return _images(scene, client, parts, every, statistical, priority, retries, progress, keywords, "progressive")
+
+
+def frames(scene: Scene, numbers: range | tuple[int, int], *, fps: float = 24.0, in_order: bool = False, client: Any = None,
+           priority: int = 0, retries: int = 0, progress: Progress = True, **keywords: Any) -> Iterator[tuple[int, Image]]:
+    """Yields frames of an animation and their numbers, one task each, as they are done or in_order.
+
+    Frame i shows the moment i / fps, with the bits of ``lavalight render --frames``. numbers: a range, or first and end. All other
+    keywords are those of ``scene.render()``. Leaving the loop ends the renders on the workers.
+    """
+    words = _frame_words(scene, keywords, "frames")
+    numbers = _range(numbers)
+    _require_rate(fps)
+    told = _Told(progress, scene.name)
+    client = _client(client)
+    return _frames(scene, client, words, numbers, fps, in_order, told, {"priority": priority, "retries": retries})
+
+
+def bag(scene: Scene, numbers: range | tuple[int, int], *, fps: float = 24.0, **keywords: Any) -> Any:
+    """The frames of frames() as a dask.bag of pairs, number and image, with a partition for each. Any scheduler of Dask's may run it.
+
+    lavalight.distributed.bag(scene, range(48), size=(640, 360), spp=64).map(save).compute()
+    """
+    import dask.bag
+
+    words = _frame_words(scene, keywords, "bag")
+    _require_rate(fps)
+    model = _bundle.model_of(scene._scene, scene._origin)
+    sent = dask.delayed(model, traverse=False, name=f"lavalight-model-{model.key}-{uuid.uuid4().hex}")
+    render_frames = dask.delayed(_worker.render_frames, pure=False)
+    tasks = _frame_tasks(scene, "", words, _range(numbers), fps)
+    return dask.bag.from_delayed([render_frames(dask.delayed([task], traverse=False), sent) for task in tasks.values()])
 
 
 def _client(client: Any) -> Any:
@@ -123,10 +154,12 @@ class _Cluster:
         return known
 
 
-_clusters: weakref.WeakKeyDictionary[Any, _Cluster] = weakref.WeakKeyDictionary()
+_clusters: dict[Any, _Cluster] = {}  # by client
 
 
 def _cluster(client: Any) -> _Cluster:
+    for known in [known for known in _clusters if known.status == "closed"]:
+        del _clusters[known]
     if client not in _clusters:
         _clusters[client] = _Cluster(client)
     return _clusters[client]
@@ -156,6 +189,59 @@ class _Told:
             self._bar.close()
 
 
+# --- tasks ---
+
+class _Run:
+    """Tasks on a cluster: their results as they come, and how far they are."""
+
+    def __init__(self, scene: Scene, client: Any, job: str, told: _Told, weights: Mapping[Any, float], what: str) -> None:
+        self._scene = scene
+        self._client = client
+        self._job = job
+        self._told = told
+        self._weights = weights  # of each task in the fraction that is done
+        self._fractions: dict[Any, float] = dict.fromkeys(weights, 0.0)
+        self._what = what
+
+    def results(self, function: Callable[..., Any], tasks: Mapping[Any, Any], name: Callable[[Any], str],
+                **how: Any) -> Generator[tuple[Any, Any, bool], None, None]:
+        """Each task's key and result, and whether no other has arrived meanwhile. Ends the tasks when it is left."""
+        events: queue.SimpleQueue[Any] = queue.SimpleQueue()
+        cluster = _cluster(self._client)
+        model = cluster.model(self._client, _bundle.model_of(self._scene._scene, self._scene._origin))
+        cluster.ears[self._job] = events.put
+        futures = self._client.map(function, list(tasks.values()), model=model, pure=False,
+                                   key=[f"lavalight-{self._job}-{name(key).replace(' ', '-')}" for key in tasks], **how)
+        waiting = dict(zip(futures, tasks))
+        try:
+            for future in futures:
+                future.add_done_callback(events.put)
+            while waiting:
+                try:
+                    event = events.get(timeout=LOOK_EVERY)
+                except queue.Empty:
+                    continue
+                if isinstance(event, dict):
+                    self._hear(event["task"], event["fraction"], len(waiting))
+                    continue
+                key = waiting.pop(event)
+                result = _result(event, name(key))
+                event.release()  # its memory on the cluster
+                self._hear(key, 1.0, len(waiting))
+                yield key, result, events.empty()
+        finally:
+            del cluster.ears[self._job]
+            self._told.close()
+            with suppress(Exception):  # the cluster may be gone
+                self._client.cancel(list(waiting), reason="lavalight: nobody waits for it")
+
+    def _hear(self, key: Any, fraction: float, waiting: int) -> None:
+        self._fractions[tuple(key) if isinstance(key, list) else key] = fraction
+        done = sum(self._weights[each] * part for each, part in self._fractions.items()) / sum(self._weights.values())
+        workers = len(self._client.nthreads())
+        self._told.tell(done, f"{len(self._weights) - waiting} of {len(self._weights)} {self._what}, {workers} workers")
+
+
 # --- parts ---
 
 Range = tuple[int, int]
@@ -183,30 +269,22 @@ def _name(samples: Range) -> str:
 class _Sum:
     """The parts that have arrived, as one film: memory does not grow with their number."""
 
-    def __init__(self, words: list[str], holds_film: bool) -> None:
+    def __init__(self, words: list[str], holds_film: bool, statistical: bool) -> None:
         self._words = words
         self._holds_film = holds_film
+        self._statistical = statistical
         self._film: _lavalight.Film | None = None
-        self._first: _worker.Part | None = None
 
     def add(self, samples: Range, part: _worker.Part) -> None:
         film = _lavalight.Film.from_bytes(part.film, f"{_name(samples)} of {part.worker}")
-        if self._film is None or self._first is None:
-            self._film, self._first = film, part
-            return
-        _require_alike(self._first, part)
-        self._film.add(film)
+        if self._film is None:
+            self._film = film
+        else:
+            self._film.add(film, self._statistical)
 
     def image(self, complete: bool) -> Image:
         assert self._film is not None
         return Image(self._film.develop(self._words, self._holds_film, complete))
-
-
-def _require_alike(first: _worker.Part, part: _worker.Part) -> None:
-    """What films do not say of where they were rendered, and their bits may depend on."""
-    if first.processor != part.processor:
-        raise _lavalight.Error(f"cannot merge parts of {first.worker} and {part.worker}: their processors differ ({first.processor}; "
-                               f"{part.processor}), and so may bits of the image; try workers of one kind")
 
 
 def _result(future: Any, name: str) -> Any:
@@ -220,7 +298,7 @@ def _result(future: Any, name: str) -> Any:
         raise _lavalight.Error(f"cannot render {name}: the task was cancelled by somebody else, or the cluster has ended") from error
 
 
-def _images(scene: Scene, client: Any, parts: int | None, priority: int, retries: int, progress: Progress, every: float,
+def _images(scene: Scene, client: Any, parts: int | None, every: float, statistical: bool, priority: int, retries: int, progress: Progress,
             keywords: Mapping[str, Any], function: str) -> Iterator[Image]:
     _require_ends(keywords, function)
     words = _keywords.words(keywords, False, function)
@@ -229,7 +307,8 @@ def _images(scene: Scene, client: Any, parts: int | None, priority: int, retries
     client = _client(client)
     ranges = _split(first, count, _parts_of(parts, count, client))
     holds_film = any(keywords.get(keyword) is not None for keyword in ("samples", "crop"))
-    return _arrivals(scene, client, words, ranges, _Sum(words, holds_film), told, every, {"priority": priority, "retries": retries})
+    how = {"priority": priority, "retries": retries}
+    return _images_of_parts(scene, client, words, ranges, _Sum(words, holds_film, statistical), told, every, how)
 
 
 def _is_of_whole(word: str) -> bool:
@@ -237,51 +316,74 @@ def _is_of_whole(word: str) -> bool:
     return word.split("=")[0] in ("--spp", "--samples", "--denoise")
 
 
-def _arrivals(scene: Scene, client: Any, words: list[str], ranges: Sequence[Range], total: _Sum, told: _Told, every: float,
-              how: Mapping[str, Any]) -> Iterator[Image]:
-    cluster = _cluster(client)
+def _images_of_parts(scene: Scene, client: Any, words: list[str], ranges: Sequence[Range], total: _Sum, told: _Told, every: float,
+                     how: Mapping[str, Any]) -> Iterator[Image]:
     job = uuid.uuid4().hex
-    events: queue.SimpleQueue[Any] = queue.SimpleQueue()
-    cluster.ears[job] = events.put
     guides = any(word.split("=")[0] == "--denoise" for word in words)
     part_words = tuple(word for word in words if not _is_of_whole(word))
-    tasks = [_worker.Task(job, part_words, guides, samples) for samples in ranges]
-    model = cluster.model(client, _bundle.model_of(scene._scene, scene._origin))
+    tasks = {samples: _worker.PartTask(job, part_words, guides, samples) for samples in ranges}
     choice = _bundle.choice_of(scene._scene, scene._origin)
-    futures = client.map(_worker.render_part, tasks, model=model, choice=choice, pure=False,
-                         key=[f"lavalight-part-{job}-{first}:{end}" for first, end in ranges], **how)
-    samples_of = dict(zip(futures, ranges))
-    try:
-        for future in futures:
-            future.add_done_callback(events.put)
-        fractions = dict.fromkeys(ranges, 0.0)
-        arrived = 0
-        last = time.monotonic()
-        while arrived < len(ranges):
-            try:
-                event = events.get(timeout=LOOK_EVERY)
-            except queue.Empty:
-                continue
-            if isinstance(event, dict):
-                fractions[tuple(event["task"])] = event["fraction"]
-            else:
-                samples = samples_of[event]
-                total.add(samples, _result(event, _name(samples)))
-                event.release()
-                fractions[samples] = 1.0
-                arrived += 1
-            told.tell(_done(fractions), f"{arrived} of {len(ranges)} parts, {len(client.nthreads())} workers")
+    arrived = 0
+    last = time.monotonic()
+    run = _Run(scene, client, job, told, {samples: samples[1] - samples[0] for samples in ranges}, "parts")
+    with closing(run.results(_worker.render_part, tasks, _name, choice=choice, **how)) as results:
+        for samples, part, is_last in results:
+            total.add(samples, part)
+            arrived += 1
             is_complete = arrived == len(ranges)
-            if is_complete or (not isinstance(event, dict) and time.monotonic() - last >= every and events.empty()):
+            if is_complete or (is_last and time.monotonic() - last >= every):
                 yield total.image(is_complete)
                 last = time.monotonic()
-    finally:
-        del cluster.ears[job]
-        told.close()
-        with suppress(Exception):  # the cluster may be gone
-            client.cancel([future for future in futures if not future.done()], reason="lavalight: nobody waits for it")
 
 
-def _done(fractions: Mapping[Range, float]) -> float:
-    total = sum(end - first for first, end in fractions)
-    return sum((end - first) * fraction for (first, end), fraction in fractions.items()) / total
+# --- frames ---
+
+def _range(numbers: range | tuple[int, int]) -> range:
+    if not isinstance(numbers, range):
+        numbers = range(*numbers)
+    if not numbers or min(numbers) < 0:
+        raise ValueError(f"frames are numbers from 0 on, and {numbers!r} has none; try range(first, end)")
+    return numbers
+
+
+def _require_rate(fps: float) -> None:
+    if not 0.0 < fps < float("inf"):
+        raise ValueError(f"fps: {fps!r} is not a rate above 0")
+
+
+def _frame_words(scene: Scene, keywords: Mapping[str, Any], function: str) -> list[str]:
+    words = _keywords.words(keywords, False, function)
+    _lavalight.sample_range(scene.name, words)  # refuses here what a worker would refuse
+    if any(word.startswith("--at=") for word in scene._origin.words):
+        raise _lavalight.UsageError(f"{function}() cannot show frames of a scene at one time; load() it without at")
+    return words
+
+
+def _frame_tasks(scene: Scene, job: str, words: Sequence[str], numbers: range, fps: float) -> dict[int, _worker.FrameTask]:
+    choice = _bundle.choice_of(scene._scene, scene._origin)
+
+    def at(number: int) -> _bundle.Choice:
+        return replace(choice, words=(*choice.words, f"--at={number / fps!r}"))
+
+    moves = any(word.startswith("--aov=") and "motion" in word for word in words)
+    return {number: _worker.FrameTask(job, tuple(words), number, at(numbers[0]), at(number), at(number + 1) if moves else None)
+            for number in numbers}
+
+
+def _frames(scene: Scene, client: Any, words: Sequence[str], numbers: range, fps: float, in_order: bool, told: _Told,
+            how: Mapping[str, Any]) -> Iterator[tuple[int, Image]]:
+    job = uuid.uuid4().hex
+    tasks = _frame_tasks(scene, job, words, numbers, fps)
+    run = _Run(scene, client, job, told, dict.fromkeys(numbers, 1.0), "frames")
+    kept: dict[int, Image] = {}
+    due = iter(numbers)
+    following = next(due, None)
+    with closing(run.results(_worker.render_frame, tasks, lambda number: f"frame {number}", **how)) as results:
+        for number, (_, image), _ in results:
+            if not in_order:
+                yield number, image
+                continue
+            kept[number] = image
+            while following in kept:
+                yield following, kept.pop(following)
+                following = next(due, None)

@@ -18,6 +18,7 @@
 #include "cli/options/device_options.h"
 #include "cli/options/picture_words.h"
 #include "cli/run_command_line.h"
+#include "gltf/pack.h"
 #include "gpu/device.h"
 #include "gpu/direct_driver.h"
 #include "lab/experiment.h"
@@ -115,6 +116,17 @@ std::pair<uint32_t, uint32_t> sampleRange(const std::string& scene, const std::v
     return {settings.image.firstSample, settings.stop.samples};
 }
 
+nb::bytes pack(const std::string& path, bool allowsExternal) {
+    PackedScene packed;
+    {
+        const nb::gil_scoped_release release;
+        packed = packGltf(path, allowsExternal);
+        for (const std::string& warning : packed.warnings)
+            spdlog::warn("{}", warning);
+    }
+    return nb::bytes(packed.glb.data(), packed.glb.size());
+}
+
 // The program, with its own messages in place of Python's logger.
 int runCommand(std::vector<std::string> words) {
     const nb::gil_scoped_release release;
@@ -165,6 +177,7 @@ NB_MODULE(_lavalight, module) {
     module.def("builtin_scenes", &builtinNames);
     module.def("presets", &presetNames);
     module.def("sample_range", &sampleRange, nb::arg("scene"), nb::arg("words"));
+    module.def("pack", &pack, nb::arg("path"), nb::arg("allow_external"));
     module.def("limit_threads", &limitAllThreads, nb::arg("threads"));
     module.def("experiments", &experimentNames);
     module.def("devices_json", &devicesJson, nb::call_guard<nb::gil_scoped_release>());

@@ -52,8 +52,8 @@ std::vector<std::pair<uint32_t, uint32_t>> rangesOf(const PythonFilm& film) {
 
 } // namespace
 
-void PythonFilm::add(const NamedFilm& part) {
-    join(film_, part);
+void PythonFilm::add(const NamedFilm& part, Machines machines) {
+    join(film_, part, machines);
 }
 
 std::unique_ptr<PythonImage> PythonFilm::develop(std::vector<std::string> words, bool holdsFilm,
@@ -84,8 +84,11 @@ void declareFilm(nb::module_& module) {
             nb::arg("key"))
         .def("bytes", &bytesOf)
         .def(
-            "add", [](PythonFilm& film, const PythonFilm& part) { film.add(part.film()); }, nb::arg("part"),
-            nb::call_guard<nb::gil_scoped_release>())
+            "add",
+            [](PythonFilm& film, const PythonFilm& part, bool isStatistical) {
+                film.add(part.film(), isStatistical ? Machines::any : Machines::ofOneKind);
+            },
+            nb::arg("part"), nb::arg("statistical"), nb::call_guard<nb::gil_scoped_release>())
         .def("develop", &PythonFilm::develop, nb::arg("words"), nb::arg("holds_film"), nb::arg("complete"),
              nb::call_guard<nb::gil_scoped_release>());
 }

@@ -19,7 +19,7 @@ class PythonFilm {
 
     [[nodiscard]] const NamedFilm& film() const { return film_; }
     // Joins a part with what is there. Throws Error as join() does.
-    void add(const NamedFilm& part);
+    void add(const NamedFilm& part, Machines machines);
     // The image of what is there, by the options of a picture. Throws Error or UsageError.
     [[nodiscard]] std::unique_ptr<PythonImage> develop(std::vector<std::string> words, bool holdsFilm,
                                                        bool isComplete) const;

@@ -67,27 +67,62 @@ class Watch {
     std::optional<nb::python_error> raised_;
 };
 
+// A scene as it was when a render of it began: Python may change it meanwhile.
+struct SceneView {
+    explicit SceneView(const PythonScene& of)
+        : scene(of.scene()), name(of.name()), lighting(of.lighting()), moment(of.moment()) {}
+
+    std::shared_ptr<const Scene> scene;
+    std::string name;
+    LightingSettings lighting;
+    ImportOptions moment;
+};
+
+RenderPlan planOf(const SceneView& view, const std::vector<std::string>& words) {
+    RenderPlan plan = parsePicture(view.name, words).plan;
+    plan.loaded = view.scene;
+    plan.settings.lighting = view.lighting;
+    return plan;
+}
+
+// Asks for pixels; no file is written.
+Outputs pixelsAlone() {
+    Outputs outputs;
+    outputs.png = "pixels";
+    return outputs;
+}
+
 } // namespace
 
 PythonRender::PythonRender(const PythonScene& scene, const std::vector<std::string>& words, Use use) {
     beginDeviceUse();
-    const std::shared_ptr<const Scene> loaded = scene.scene();
-    const std::string name = scene.name();
-    const LightingSettings lighting = scene.lighting();
-    const ImportOptions moment = scene.moment();
+    const SceneView view(scene);
     const nb::gil_scoped_release release;
-    ParsedPicture parsed = parsePicture(name, words);
-    parsed.plan.loaded = loaded;
-    parsed.plan.settings.lighting = lighting;
-    parsed.plan.settings.stop.isProgressive = use.isProgressive;
+    RenderPlan plan = planOf(view, words);
+    plan.settings.stop.isProgressive = use.isProgressive;
     if (use.hasGuides)
-        parsed.plan.settings.layers |= kDenoisingLayers;
-    device_ = parsed.plan.device;
-    session_ = SessionPool::ofProcess().take(std::move(parsed.plan));
-    Outputs wanted;
-    if (!use.isPart)
-        wanted.png = "pixels"; // asks for them; no file is written
-    job_ = session_->prepare(moment, wanted);
+        plan.settings.layers |= kDenoisingLayers;
+    open(std::move(plan));
+    job_ = session_->prepare(view.moment, use.isPart ? Outputs() : pixelsAlone());
+}
+
+PythonRender::PythonRender(const PythonScene& first, const PythonScene& scene, const PythonScene* next,
+                           const std::vector<std::string>& words) {
+    beginDeviceUse();
+    const SceneView ofFirst(first);
+    const SceneView view(scene);
+    std::optional<RenderSession::NextMoment> moment;
+    if (next != nullptr)
+        moment = RenderSession::NextMoment{next->moment(), {}, next->scene()};
+    const nb::gil_scoped_release release;
+    open(planOf(ofFirst, words));
+    session_->follow(ofFirst.moment, view.scene);
+    job_ = session_->prepare(view.moment, pixelsAlone(), moment);
+}
+
+void PythonRender::open(RenderPlan plan) {
+    device_ = plan.device;
+    session_ = SessionPool::ofProcess().take(std::move(plan));
 }
 
 PythonRender::~PythonRender() {
@@ -175,6 +210,11 @@ void declareRender(nb::module_& module) {
                     scene, words, PythonRender::Use{.isPart = true, .hasGuides = hasGuides});
             },
             nb::arg("scene"), nb::arg("words"), nb::arg("guides"))
+        .def_static(
+            "of_frame",
+            [](const PythonScene& first, const PythonScene& scene, const PythonScene* next,
+               const Words& words) { return std::make_unique<PythonRender>(first, scene, next, words); },
+            nb::arg("first"), nb::arg("scene"), nb::arg("next").none(), nb::arg("words"))
         .def("take", &PythonRender::take, nb::arg("first"), nb::arg("end"))
         .def("advance", &PythonRender::advance, nb::arg("seconds"), nb::arg("progress").none())
         .def(

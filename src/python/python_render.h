@@ -24,6 +24,10 @@ class PythonRender {
     };
     // Opens the device and compiles kernels. Throws Error or UsageError.
     PythonRender(const PythonScene& scene, const std::vector<std::string>& words, Use use);
+    // A frame of an animation, whose camera, ground and size are those of its first one. `next`: the scene of
+    // the frame that follows, for the layer of motion; null: there is no such layer.
+    PythonRender(const PythonScene& first, const PythonScene& scene, const PythonScene* next,
+                 const std::vector<std::string>& words);
     ~PythonRender();
     PythonRender(const PythonRender&) = delete;
     PythonRender& operator=(const PythonRender&) = delete;
@@ -39,6 +43,7 @@ class PythonRender {
   private:
     // Takes samples as advance() does, and calls `finish` for what is to come of them, without Python's lock.
     void work(double seconds, nanobind::handle progress, const std::function<void()>& finish);
+    void open(RenderPlan plan);
     void requireIdle() const;
     void takeSamples(const RenderJob::KeepGoing& keepGoing);
 

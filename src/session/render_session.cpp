@@ -101,7 +101,7 @@ Camera RenderSession::cameraOf(const Scene& scene, const CameraChoice& choice) c
 }
 
 void RenderSession::loadNext(Scene& scene, const NextMoment& next) const {
-    Scene later = loadScene(plan_, next.moment);
+    Scene later = next.loaded ? *next.loaded : loadScene(plan_, next.moment);
     CameraChoice choice = plan_.camera;
     choice.turns = next.turns;
     const Camera camera = cameraOf(later, choice);
@@ -127,6 +127,11 @@ PreparedScene RenderSession::load(const ImportOptions& moment) {
         logNotes(prepared.scene, plan_);
     plan_.settings = prepared.settings;
     return prepared;
+}
+
+void RenderSession::follow(const ImportOptions& first, std::shared_ptr<const Scene> loaded) {
+    (void)load(first);
+    plan_.loaded = std::move(loaded);
 }
 
 std::unique_ptr<Renderer> RenderSession::makeRenderer(const PreparedScene& prepared) {

@@ -63,8 +63,14 @@ class RenderSession {
     // What follows an image in a sequence, for its layer of motion.
     struct NextMoment {
         ImportOptions moment;
-        std::optional<float> turns; // of the plan's view
+        std::optional<float> turns;            // of the plan's view
+        std::shared_ptr<const Scene> loaded{}; // the scene at that moment; null: the session loads it
     };
+
+    // Takes from the first scene of a sequence what its images share, where the session does not render it
+    // itself: the camera that stands in, the ground's height, the size. `loaded`: the scene of the jobs to
+    // come.
+    void follow(const ImportOptions& first, std::shared_ptr<const Scene> loaded);
 
     // Loads the scene, opens the device if this is the first job, and compiles the kernels that `outputs`
     // need. Throws Error or UsageError.

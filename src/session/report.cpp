@@ -139,7 +139,8 @@ void fillMeans(RenderReport& report, const Rendering& rendering) {
 }
 
 constexpr std::string_view kOption = "option:";
-constexpr std::string_view kSobol = "sobol"; // as describe() has the sampler
+constexpr std::string_view kOfFilm = "film:"; // how keys begin that only files with a film have
+constexpr std::string_view kSobol = "sobol";  // as describe() has the sampler
 
 Json optionsJson(const Metadata& metadata) {
     Json json = Json::object();
@@ -248,6 +249,7 @@ std::string filmReportJson(const FilmFile& film, const Rendering& rendering,
     for (const char* key : {"version", "commit", "scene", "camera"})
         json[key] = header(key);
     json["device"] = {{"name", header("device")}, {"driver", header("driver")}};
+    json["processor"] = header("processor");
     json["settings"] = optionsJson(film.metadata);
     if (tone)
         json["png"] = toneJson(*tone);
@@ -266,8 +268,7 @@ std::string filmReportJson(const FilmFile& film, const Rendering& rendering,
 
 Metadata exrMetadata(const FilmFile& film, const std::vector<LedgerEntry>& ledger) {
     Metadata metadata = film.metadata;
-    std::erase_if(metadata,
-                  [](const auto& pair) { return pair.first == kRaysKey || pair.first == kSettingsLedger; });
+    std::erase_if(metadata, [](const auto& pair) { return pair.first.starts_with(kOfFilm); });
     setValue(metadata, "bias-ledger", ledgerText(ledger));
     return metadata;
 }
