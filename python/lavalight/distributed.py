@@ -233,7 +233,7 @@ class _Run:
             del cluster.ears[self._job]
             self._told.close()
             with suppress(Exception):  # the cluster may be gone
-                self._client.cancel(list(waiting), reason="lavalight: nobody waits for it")
+                self._client.cancel(list(waiting))
 
     def _hear(self, key: Any, fraction: float, waiting: int) -> None:
         self._fractions[tuple(key) if isinstance(key, list) else key] = fraction

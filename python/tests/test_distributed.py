@@ -30,7 +30,15 @@ MANY = {"size": (256, 256), "spp": 20000}  # more than any test waits for
 def client():
     with distributed.LocalCluster(n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None) as cluster, \
             distributed.Client(cluster, set_as_default=False) as found:
+        found.register_plugin(Talkative())
         yield found
+
+
+class Talkative(distributed.WorkerPlugin):
+    """Workers that tell how far they are more often, so that renders here may be short."""
+
+    def setup(self, worker):
+        _worker.TELL_EVERY = 0.02
 
 
 def busy():
@@ -98,7 +106,7 @@ def test_a_scene_is_sent_once(client, monkeypatch):
 
 
 def test_leaving_the_loop_ends_renders_on_workers(client, box):
-    for image in on_cluster.progressive(box, client=client, parts=20000, every=0.0, **MANY):
+    for image in on_cluster.progressive(box, client=client, parts=64, every=0.0, size=(64, 64), spp=6400):
         assert image.samples.max() > 0 and not image.complete
         break
     del image
@@ -116,7 +124,7 @@ def test_a_part_that_is_under_way_is_ended(client, box):
 
 def test_progress_is_told_before_parts_are_there(client, box):
     fractions = []
-    on_cluster.render(box, client=client, parts=2, size=(256, 256), spp=300, progress=fractions.append)
+    on_cluster.render(box, client=client, parts=2, size=(64, 64), spp=600, progress=fractions.append)
     assert fractions == sorted(fractions) and fractions[-1] == 1.0
     assert any(0.0 < fraction < 0.45 for fraction in fractions)
 
@@ -150,9 +158,9 @@ def test_a_lost_worker_costs_no_bit(client, box):
             killed.append(client.run(busy))
             os.kill(next(iter(workers.values())), signal.SIGKILL)
 
-    image = on_cluster.render(box, client=client, parts=4, size=(128, 128), spp=256, progress=kill)
+    image = on_cluster.render(box, client=client, parts=4, size=(64, 64), spp=400, progress=kill)
     assert any(killed[0].values())
-    assert (image.rgb == box.render(size=(128, 128), spp=256).rgb).all()
+    assert (image.rgb == box.render(size=(64, 64), spp=400).rgb).all()
     client.wait_for_workers(2)
 
 

@@ -2,6 +2,7 @@
 from pathlib import Path
 
 import lavalight
+import lavalight.distributed
 import numpy as np
 
 
@@ -21,6 +22,13 @@ def main() -> None:
         print(table.title, table.column("estimate"))
     built = lavalight.Scene([lavalight.Mesh(np.zeros((3, 3)))], [lavalight.Material()], lavalight.Camera(), [lavalight.Light()])
     print(built.bounds)
+    merged: lavalight.Image = lavalight.merge([image.film_bytes(), "part.exr"], tonemap="agx")
+    print(merged.report["ranges"], len(lavalight.pack("model.gltf")))
+    for better in lavalight.distributed.progressive(scene, parts=8, every=1.0, spp=64):
+        print(better.complete)
+    for number, frame in lavalight.distributed.frames(scene, range(2), fps=12, in_order=True):
+        frame.save(f"out_{number:04}.png")
+    print(lavalight.distributed.render(scene, progress="bar", spp=64).samples)
 
 
 if __name__ == "__main__":
