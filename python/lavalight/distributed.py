@@ -41,6 +41,7 @@ PARTS_PER_WORKER = 4  # by default: a lost worker loses a quarter of its work, a
 FEWEST_SAMPLES = 8  # of a part, by default
 MOST_MODELS = 4  # that a cluster keeps for later renders
 LOOK_EVERY = 0.2  # seconds, so that Ctrl-C is heard
+COUNT_EVERY = 2.0  # seconds between two counts of the workers
 
 Progress = bool | str | Callable[[float], object] | None
 
@@ -52,10 +53,11 @@ def render(scene: Scene, *, client: Any = None, parts: int | None = None, statis
            retries: int = 0, progress: Progress = True, **keywords: Any) -> Image:
     """Renders an image in parts, on the workers of a Dask cluster. It has the bits of ``scene.render()``.
 
-    client: a dask.distributed.Client; None: the one that is there. parts: of how many samples each are taken is up to it; None: by
-    samples and workers. statistical: workers may be of different kinds, whose samples have equal means and not equal bits. priority, retries: as Client.submit() has them; parts of lost workers are rendered again without retries.
-    progress: True shows a bar in a notebook or a terminal, "bar" in any case; or a function that takes the fraction done. All other
-    keywords are those of ``scene.render()`` but time and target_error.
+    client: a dask.distributed.Client; None: the one that is there. parts: how many tasks share the samples; None: by samples and
+    workers. statistical: workers may be of different kinds, whose samples have equal means and not equal bits. priority, retries: as
+    Client.submit() has them; parts of lost workers are rendered again without retries. progress: True shows a bar in a notebook or a
+    terminal, "bar" in any case; or a function that takes the fraction done. All other keywords are those of ``scene.render()`` but
+    time and target_error.
 
     Raises lavalight.Error as a render and merge() do. Ctrl-C and whatever progress raises end the renders on the workers.
     """
@@ -202,6 +204,8 @@ class _Run:
         self._weights = weights  # of each task in the fraction that is done
         self._fractions: dict[Any, float] = dict.fromkeys(weights, 0.0)
         self._what = what
+        self._count = 0  # of workers
+        self._counted = float("-inf")
 
     def results(self, function: Callable[..., Any], tasks: Mapping[Any, Any], name: Callable[[Any], str],
                 **how: Any) -> Generator[tuple[Any, Any, bool], None, None]:
@@ -238,8 +242,16 @@ class _Run:
     def _hear(self, key: Any, fraction: float, waiting: int) -> None:
         self._fractions[tuple(key) if isinstance(key, list) else key] = fraction
         done = sum(self._weights[each] * part for each, part in self._fractions.items()) / sum(self._weights.values())
-        workers = len(self._client.nthreads())
-        self._told.tell(done, f"{len(self._weights) - waiting} of {len(self._weights)} {self._what}, {workers} workers")
+        self._told.tell(done, f"{len(self._weights) - waiting} of {len(self._weights)} {self._what}, {self._workers()} workers")
+
+    def _workers(self) -> int:
+        """How many there are, asked of the scheduler once in a while."""
+        now = time.monotonic()
+        if now - self._counted >= COUNT_EVERY:
+            self._counted = now
+            with suppress(OSError, TimeoutError):
+                self._count = len(self._client.nthreads())
+        return self._count
 
 
 # --- parts ---
@@ -292,8 +304,8 @@ def _result(future: Any, name: str) -> Any:
     try:
         return future.result()
     except KilledWorker as error:
-        raise _lavalight.Error(f"cannot render {name}: {error.allowed_failures + 1} workers died of it, the last {error.last_worker.address}; "
-                               "try workers with more memory, and look into their logs") from error
+        raise _lavalight.Error(f"cannot render {name}: {error.allowed_failures + 1} workers died of it, the last "
+                               f"{error.last_worker.address}; try workers with more memory, and look into their logs") from error
     except CancelledError as error:
         raise _lavalight.Error(f"cannot render {name}: the task was cancelled by somebody else, or the cluster has ended") from error
 
