@@ -68,6 +68,19 @@ def test_an_image_without_its_film_is_saved_as_one_render_saves_it(client, box, 
     assert_same_bits(image, box.render(size=(24, 16), spp=10), tmp_path)
 
 
+def test_the_joined_image_is_denoised(client, box, tmp_path):
+    options = {"size": (32, 24), "denoise": "fast", "layers": ["albedo"]}
+    try:
+        expected = box.render(spp=4, **options)
+    except lavalight.Error as error:
+        pytest.skip(str(error).splitlines()[0])
+    assert_same_bits(on_cluster.render(box, client=client, parts=2, spp=4, **options), expected, tmp_path)
+    expected = box.render(samples=(0, 4), **options)
+    parts = [box.render(samples=samples, **options) for samples in ((0, 2), (2, 4))]
+    assert_same_bits(lavalight.merge(parts, denoise="fast"), expected, tmp_path)
+    assert_same_bits(on_cluster.render(box, client=client, parts=2, samples=(0, 4), **options), expected, tmp_path)
+
+
 def test_what_parts_leave_of_a_range_is_what_was_asked_for(client, box, tmp_path):
     image = on_cluster.render(box, client=client, parts=2, size=(24, 16), samples=(3, 8))
     assert_same_bits(image, box.render(size=(24, 16), samples=(3, 8)), tmp_path)
