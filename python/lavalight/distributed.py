@@ -15,7 +15,7 @@ import queue
 import time
 import uuid
 from collections import OrderedDict
-from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
+from collections.abc import Callable, Generator, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import CancelledError
 from contextlib import closing, suppress
 from dataclasses import replace
@@ -387,15 +387,18 @@ def _frames(scene: Scene, client: Any, words: Sequence[str], numbers: range, fps
     job = uuid.uuid4().hex
     tasks = _frame_tasks(scene, job, words, numbers, fps)
     run = _Run(scene, client, job, told, dict.fromkeys(numbers, 1.0), "frames")
+    with closing(run.results(_worker.render_frame, tasks, lambda number: f"frame {number}", **how)) as results:
+        arrived = ((number, image) for number, (_, image), _ in results)
+        yield from _in_order(arrived, numbers) if in_order else arrived
+
+
+def _in_order(arrived: Iterable[tuple[int, Image]], numbers: range) -> Iterator[tuple[int, Image]]:
+    """Holds back what comes before its turn."""
     kept: dict[int, Image] = {}
     due = iter(numbers)
     following = next(due, None)
-    with closing(run.results(_worker.render_frame, tasks, lambda number: f"frame {number}", **how)) as results:
-        for number, (_, image), _ in results:
-            if not in_order:
-                yield number, image
-                continue
-            kept[number] = image
-            while following in kept:
-                yield following, kept.pop(following)
-                following = next(due, None)
+    for number, image in arrived:
+        kept[number] = image
+        while following is not None and following in kept:
+            yield following, kept.pop(following)
+            following = next(due, None)

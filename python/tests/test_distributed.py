@@ -142,6 +142,14 @@ def test_progress_is_told_before_parts_are_there(client, box):
     assert any(0.0 < fraction < 0.45 for fraction in fractions)
 
 
+def test_progress_does_not_fall_where_a_part_begins_again():
+    fractions = []
+    told = on_cluster._Told(fractions.append, "box")
+    for fraction in (0.5, 0.2, 0.7):
+        told.tell(fraction, "")
+    assert fractions == [0.5, 0.5, 0.7]
+
+
 def test_what_a_worker_says_is_raised(client, box):
     with pytest.raises(lavalight.Error, match="nowhere"):
         on_cluster.render(box, client=client, parts=2, device="nowhere", size=(16, 16), spp=4)
@@ -213,6 +221,13 @@ def test_frames_have_the_bits_of_the_command(client, command, tmp_path):
     bag = on_cluster.bag(scene, range(1, 3), fps=8, **options)
     for number, image in bag.compute(scheduler="synchronous"):
         assert (image.rgb == found[number].rgb).all()
+
+
+def test_frames_that_come_before_their_turn_are_held_back():
+    arrived = iter([(3, "c"), (1, "a"), (7, "e"), (5, "d")])
+    in_order = on_cluster._in_order(arrived, range(1, 9, 2))
+    assert next(in_order) == (1, "a") and next(arrived) == (7, "e")
+    assert list(on_cluster._in_order([(3, "c"), (1, "a"), (5, "d")], range(1, 7, 2))) == [(1, "a"), (3, "c"), (5, "d")]
 
 
 def test_frames_of_nothing_are_refused(box, client):
