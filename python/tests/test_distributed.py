@@ -28,7 +28,7 @@ MANY = {"size": (256, 256), "spp": 20000}  # more than any test waits for
 
 @pytest.fixture(scope="module")
 def client():
-    with distributed.LocalCluster(n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None) as cluster, \
+    with distributed.LocalCluster(n_workers=2, threads_per_worker=1, processes=True, dashboard_address=":0") as cluster, \
             distributed.Client(cluster, set_as_default=False) as found:
         found.register_plugin(Talkative())
         yield found
