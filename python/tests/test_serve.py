@@ -319,15 +319,15 @@ def events_of(answer):
 
 
 def test_events_bring_a_picture_that_gets_better_and_ends_with_the_bits_of_render(server):
-    status, answered, data = server.json("/render", {"builtin": "cornell-box", "size": [64, 64], "spp": 128, "every": 0.05}, Accept="text/event-stream")
+    status, answered, data = server.json("/render", {"builtin": "cornell-box", "size": [32, 32], "spp": 256, "every": 0.05}, Accept="text/event-stream")
     assert status == 200 and answered["content-type"].startswith("text/event-stream")
     events = list(events_of(data))
     pictures = [data for name, data in events if name == "picture"]
     counts = [picture["samples"] for picture in pictures]
-    assert len(pictures) > 1 and counts == sorted(counts) and counts[-1] == 128
+    assert len(pictures) > 1 and counts == sorted(counts) and counts[-1] == 256
     assert events[-1][0] == "done" and events[-1][1]["ledger"] == {}
     last = np.array(Pillow.open(io.BytesIO(base64.b64decode(pictures[-1]["data"]))).convert("RGB"))
-    assert (last == lavalight.load("cornell-box").render(size=(64, 64), spp=128).pixels[:, :, :3]).all()
+    assert (last == lavalight.load("cornell-box").render(size=(32, 32), spp=256).pixels[:, :, :3]).all()
 
 
 def test_events_tell_of_failures(server):
