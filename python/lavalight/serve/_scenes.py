@@ -8,6 +8,7 @@ import time
 from collections import OrderedDict
 
 from .. import Error, _lavalight
+from .._bundle import Origin
 from .._image import Image
 from .._keywords import words
 from .._scene import Scene, load
@@ -18,7 +19,7 @@ from ._settings import Limits
 def load_model(name: str, model: bytes, options: list[str], limits: Limits) -> Scene:
     """Reads no file: what a glTF refers to has to be inside of it. Raises Refusal for one that cannot be had."""
     try:
-        scene = Scene._of(_lavalight.Scene.from_bytes(name, model, options))
+        scene = Scene._of(_lavalight.Scene.from_bytes(name, model, options), Origin(options, model))
     except Error as error:
         raise Refusal(400, str(error)) from None
     if scene.triangles > limits.triangles:
