@@ -255,7 +255,7 @@ def test_a_file_outside_of_the_upload_is_not_read(server, tmp_path):
         assert server.ask("POST", "/scenes", json.dumps(gltf))[0] == 400, uri
     for name in ("env", "shaders", "allow_external", "preset", "device"):
         assert server.json("/render", {"builtin": "cornell-box", "size": [8, 8], "spp": 1, name: str(secret)})[0] == 400, name
-    for name in (str(secret), "../secret.bin", "/etc/passwd", "cornell-box\0"):
+    for name in (str(secret), "../secret.bin", "/etc/passwd", "cornell-box\0", "dense-N", "dense-9"):
         assert server.json("/render", {"builtin": name})[0] == 404
         assert server.json("/scenes", {"builtin": name})[0] == 404
 

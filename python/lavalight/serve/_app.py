@@ -20,7 +20,7 @@ from starlette.requests import Request
 from starlette.responses import JSONResponse, PlainTextResponse, Response, StreamingResponse
 from starlette.routing import Route
 
-from .. import Error, UsageError, __version__, builtin_scenes, load
+from .. import Error, UsageError, __version__, load
 from . import _drake, _preview
 from ._guard import Guard, header
 from ._refusal import ClientGone, Refusal
@@ -244,7 +244,7 @@ async def about(server: Server, request: Request) -> Response:
     """GET /about: what the page has to know, and whether the server is well."""
     del request
     limits = server.settings.limits
-    return JSONResponse({"version": __version__, "builtin": builtin_scenes(), "denoise": server.can_denoise, "requests": server.renders.count,
+    return JSONResponse({"version": __version__, "builtin": _preview.builtin_names(), "denoise": server.can_denoise, "requests": server.renders.count,
                          "scenes": len(server.scenes),
                          "limits": {"bytes": limits.bytes, "pixels": limits.pixels, "samples": limits.samples, "seconds": limits.seconds,
                                     "waiting": limits.waiting, "renders": limits.renders, "triangles": limits.triangles}})

@@ -116,9 +116,14 @@ def _scene(request: dict[str, Any], scenes: Scenes, limits: Limits) -> KeptScene
         raise Refusal(400, "cannot read the request: model is not base64") from None
 
 
+def builtin_names() -> list[str]:
+    """Without those that stand for many, such as dense-N: load() would look for a file of that name."""
+    return [name for name in builtin_scenes() if "-N" not in name]
+
+
 def builtin(name: str, limits: Limits) -> KeptScene:
-    if name not in builtin_scenes():
-        raise Refusal(404, f"cannot find a built-in scene of that name; there are {', '.join(builtin_scenes())}")
+    if name not in builtin_names():
+        raise Refusal(404, f"cannot find a built-in scene of that name; there are {', '.join(builtin_names())}")
     return KeptScene(name, None, limits)
 
 
