@@ -126,7 +126,7 @@ TEST_F(Options, OfRenderAreOnRecordUnlessTheyAreListedHereWithTheReason) {
     // first-sample and spp, in the ledger (denoise), as the settings that a preset stands for, and as --at of
     // each frame.
     const std::set<std::string> elsewhere{"camera",  "device", "tonemap", "exposure", "samples",
-                                          "denoise", "preset", "frames",  "fps"};
+                                          "denoise", "preset", "frames",  "frame",    "fps"};
     // Options that need no record: what to write and where; how the work is cut up, which no bit depends on;
     // whether to render or refuse; whether to go on or begin again.
     const std::set<std::string> noMatterOfTheImage{
