@@ -52,3 +52,22 @@ inside_environment=(PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LANG=C.UTF-8 X
 for name in http_proxy https_proxy no_proxy HTTP_PROXY HTTPS_PROXY NO_PROXY; do
     [ -z "${!name:-}" ] || inside_environment+=("$name=${!name}")
 done
+
+# enter_clean SUITE: a clean root of that suite with a writable layer of its own in `work`, as `root`. Wants `roots` and `work`.
+enter_clean() {
+    local suite="$1" layer
+    make_root "$suite" "$roots/clean-$suite"
+    layer="$(mktemp -d "$work/$suite.XXXXXX")"
+    root="$layer/root"
+    mkdir -p "$layer/upper" "$layer/work" "$root"
+    mount -t overlay overlay -o "lowerdir=$roots/clean-$suite,upperdir=$layer/upper,workdir=$layer/work" "$root"
+    share_network "$root"
+    mount_system "$root"
+}
+
+leave_clean() {
+    [ -z "$root" ] || umount --recursive "$root"
+    root=""
+}
+
+inside() { chroot "$root" /usr/bin/env -i "${inside_environment[@]}" "$@"; }
