@@ -37,6 +37,12 @@ def test_presets_and_devices_are_listed():
     assert {"name", "driver", "type", "refusals"} <= set(device)
 
 
+def test_the_vulkan_loader_is_opened_and_not_linked():
+    linked = subprocess.run(["ldd", lavalight._lavalight.__file__], check=True, capture_output=True, text=True).stdout
+    assert "libc.so" in linked
+    assert "vulkan" not in linked
+
+
 def test_the_version_is_the_commands(command):
     assert lavalight.__version__ in command("--version").stdout
 

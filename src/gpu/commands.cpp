@@ -12,8 +12,9 @@ namespace {
 // Timestamps of one submission; what goes beyond is run but not timed.
 constexpr uint32_t kMaxStamps = 4096;
 
-const vk::CommandBuffer recorded(const std::vector<vk::raii::CommandBuffer>& buffers) {
-    return *buffers.front();
+// Its functions are the device's own: those of vk::CommandBuffer would link a loader of the build's choice.
+const vk::raii::CommandBuffer& recorded(const std::vector<vk::raii::CommandBuffer>& buffers) {
+    return buffers.front();
 }
 
 } // namespace
@@ -93,13 +94,14 @@ void Commands::mark(const std::string& kernel) {
 
 void Commands::prepareDispatch(const BoundKernel& kernel, std::span<const std::byte> pushConstants) {
     assert(pushConstants.size() == kernel.kernel().code().pushConstantBytes);
-    const vk::CommandBuffer commands = recorded(buffers_);
+    const vk::raii::CommandBuffer& commands = recorded(buffers_);
     const vk::PipelineLayout layout = kernel.kernel().layout();
     commands.bindPipeline(vk::PipelineBindPoint::eCompute, kernel.kernel().pipeline());
     commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, layout, 0, kernel.set(), {});
     if (!pushConstants.empty())
-        commands.pushConstants(layout, vk::ShaderStageFlagBits::eCompute, 0,
-                               static_cast<uint32_t>(pushConstants.size()), pushConstants.data());
+        commands.pushConstants<std::byte>(
+            layout, vk::ShaderStageFlagBits::eCompute, 0,
+            {static_cast<uint32_t>(pushConstants.size()), pushConstants.data()});
 }
 
 void Commands::finishCommand() {
@@ -147,7 +149,7 @@ void Commands::copy(const Buffer& from, const Buffer& to, uint64_t bytes) {
 void Commands::submit() {
     checked("run", "a submission", [&] {
         buffers_.front().end();
-        const vk::CommandBuffer commands = recorded(buffers_);
+        const vk::CommandBuffer commands = *recorded(buffers_);
         submitted_ = std::chrono::steady_clock::now();
         device_->queue().submit(vk::SubmitInfo({}, {}, commands), *fence_);
     });

@@ -79,7 +79,7 @@ void load(DirectDriver& driver) {
     driver.loaded = driver.wanted;
 }
 
-void giveManifest(const std::filesystem::path& library) {
+std::string manifestOf(const std::filesystem::path& library) {
     std::filesystem::path manifest = library;
     manifest.replace_extension(".json");
     if (!std::filesystem::exists(manifest))
@@ -87,12 +87,14 @@ void giveManifest(const std::filesystem::path& library) {
             fmt::format("cannot hand the driver {} to this Vulkan loader, which is older than 1.3.243: "
                         "{} is missing; try the loader's own VK_ADD_DRIVER_FILES",
                         library.string(), manifest.string()));
-    constexpr const char* kManifests = "VK_ADD_DRIVER_FILES";
-    const char* others = std::getenv(kManifests);
-    const std::string known = others == nullptr ? "" : others;
-    if (known.find(manifest.string()) == std::string::npos)
-        ::setenv(kManifests, (known.empty() ? manifest.string() : manifest.string() + ":" + known).c_str(),
-                 1);
+    return manifest.string();
+}
+
+bool hasNamedManifests() {
+    for (const char* variable : {"VK_DRIVER_FILES", "VK_ICD_FILENAMES"})
+        if (const char* files = std::getenv(variable); files != nullptr && *files != '\0')
+            return true;
+    return false;
 }
 
 } // namespace
@@ -103,22 +105,35 @@ void useDriver(std::filesystem::path library) {
     driver.wanted = std::move(library);
 }
 
-const VkDirectDriverLoadingListLUNARG* directDriver(bool knowsDirectDrivers) {
+DriverOffer::DriverOffer(bool knowsDirectDrivers) {
     DirectDriver& driver = theDriver();
     const std::lock_guard lock(driver.mutex);
     const char* named = std::getenv(kDriverVariable);
     if (named != nullptr && std::string_view(named) == "system")
-        return nullptr;
+        return;
     if (named != nullptr && *named != '\0')
         driver.wanted = named;
     if (driver.wanted.empty())
-        return nullptr;
+        return;
     if (driver.wanted != driver.loaded)
         load(driver);
     if (knowsDirectDrivers)
-        return &driver.list;
-    giveManifest(driver.wanted);
-    return nullptr;
+        direct_ = &driver.list;
+    else
+        prepend("VK_ADD_DRIVER_FILES", manifestOf(driver.wanted), ':');
+    if (!hasNamedManifests())                                  // those are the user's wish
+        prepend("VK_LOADER_DRIVERS_DISABLE", "lvp_icd*", ','); // the names of Mesa's manifests
+}
+
+DriverOffer::~DriverOffer() {
+    for (const auto& [variable, value] : before_)
+        value ? ::setenv(variable, value->c_str(), 1) : ::unsetenv(variable);
+}
+
+void DriverOffer::prepend(const char* variable, const std::string& value, char separator) {
+    const char* others = std::getenv(variable);
+    before_.emplace_back(variable, others == nullptr ? std::nullopt : std::optional<std::string>(others));
+    ::setenv(variable, (others == nullptr ? value : value + separator + others).c_str(), 1);
 }
 
 } // namespace lavalight::gpu

@@ -74,7 +74,8 @@ vk::raii::Instance makeInstance(const vk::raii::Context& context, bool validate,
         info.setPNext(&features);
     }
     VkDirectDriverLoadingListLUNARG driver{};
-    if (const VkDirectDriverLoadingListLUNARG* own = directDriver(knowsDirectDrivers(context))) {
+    const DriverOffer offer(knowsDirectDrivers(context));
+    if (const VkDirectDriverLoadingListLUNARG* own = offer.direct()) {
         extensions.push_back(VK_LUNARG_DIRECT_DRIVER_LOADING_EXTENSION_NAME);
         driver = *own;
         driver.pNext = const_cast<void*>(info.pNext); // C declares it so; it is read alone

@@ -20,6 +20,8 @@ using test::ProgramResult;
 using test::runLavalight;
 using test::TemporaryFolder;
 
+constexpr const char* kLavapipe = "/usr/lib/x86_64-linux-gnu/libvulkan_lvp.so";
+
 class Devices : public testing::Test {
   protected:
     [[nodiscard]] ProgramResult run(const std::vector<std::string>& arguments) const {
@@ -71,21 +73,36 @@ TEST_F(Devices, WithoutADriverThereIsOneLineAndExitOne) {
     EXPECT_EQ(folder_.count(), 0);
 }
 
-// The loader takes the library itself or, where it is an older one, the manifest beside it.
-TEST_F(Devices, ADriverThatIsNamedServesWhereTheSystemHasNone) {
-    const std::string lavapipe = "/usr/lib/x86_64-linux-gnu/libvulkan_lvp.so";
-    if (!std::filesystem::exists(lavapipe))
-        GTEST_SKIP() << lavapipe << " is not there";
-    const std::string library = (folder_ / "driver.so").string();
-    std::filesystem::create_symlink(lavapipe, library);
-    std::ofstream(folder_ / "driver.json")
+// A driver that is not installed: the system's lavapipe under another name. The loader takes the library
+// itself or, where it is an older one, the manifest beside it.
+std::string namedDriver(const TemporaryFolder& folder) {
+    const std::string library = (folder / "driver.so").string();
+    std::filesystem::create_symlink(kLavapipe, library);
+    std::ofstream(folder / "driver.json")
         << R"({"file_format_version": "1.0.0", "ICD": {"api_version": "1.3.0", "library_path": "./driver.so"}})";
+    return library;
+}
+
+TEST_F(Devices, ADriverThatIsNamedServesWhereTheSystemHasNone) {
+    if (!std::filesystem::exists(kLavapipe))
+        GTEST_SKIP() << kLavapipe << " is not there";
+    const std::string library = namedDriver(folder_);
     const EnvironmentVariable data("XDG_DATA_DIRS", folder_.path().string()); // where drivers are installed
     ASSERT_EQ(run({"devices"}).exitCode, 1) << "a driver is found elsewhere";
     const EnvironmentVariable driver("LAVALIGHT_DRIVER", library);
     const ProgramResult result = run({"devices"});
     EXPECT_EQ(result.exitCode, 0) << result.err;
     EXPECT_NE(result.out.find("llvmpipe"), std::string::npos) << result.out;
+}
+
+TEST_F(Devices, ADriverThatIsNamedTakesThePlaceOfTheSystemsLavapipe) {
+    if (!std::filesystem::exists(kLavapipe))
+        GTEST_SKIP() << kLavapipe << " is not there";
+    const std::string before = run({"devices"}).out;
+    const EnvironmentVariable driver("LAVALIGHT_DRIVER", namedDriver(folder_));
+    const ProgramResult result = run({"devices"});
+    EXPECT_EQ(result.exitCode, 0) << result.err;
+    EXPECT_EQ(result.out, before);
 }
 
 TEST_F(Devices, WhatIsNoDriverIsRefusedByName) {
