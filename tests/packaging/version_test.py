@@ -44,6 +44,14 @@ class Version(unittest.TestCase):
     def test_repository_around_an_archive_is_not_asked(self):
         self.assertEqual(self.commit_of(self.source / "below"), "")
 
+    def test_archive_says_the_commit_that_its_file_has(self):
+        (self.source / "below/COMMIT").write_text("0123456789ab\n", encoding="utf-8")
+        self.assertEqual(self.commit_of(self.source / "below"), "0123456789ab")
+
+    def test_checkout_is_asked_whatever_a_file_says(self):
+        (self.source / "COMMIT").write_text("0123456789ab\n", encoding="utf-8")
+        self.assertEqual(self.commit_of(self.source), self.git("rev-parse", "--short=12", "HEAD"))
+
     def test_commit_that_is_given_stands(self):
         self.assertEqual(self.commit_of(self.source, "abc"), "abc")
 
