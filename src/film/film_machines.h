@@ -16,8 +16,8 @@ inline constexpr std::array<std::string_view, 4> kMachineKeys{"device", "driver"
 // The key of films that hold samples of several kinds: how many each has taken.
 inline constexpr const char* kMachines = "machines";
 
-// Gives `sum`, which is about to take the samples of `part`, the header of both: where they are of different
-// kinds, each with the number of its samples. `sum`'s film is still without those of `part`.
+// Where the two films are of different kinds, writes all kinds and their numbers of samples into the header
+// of `sum`. Call it before the samples of `part` are added to `sum`.
 void joinMachines(FilmFile& sum, const FilmFile& part);
 
 // The entry of the ledger that names each kind; none for a film of one.

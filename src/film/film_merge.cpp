@@ -140,6 +140,11 @@ void join(NamedFilm& sum, const NamedFilm& part, Machines machines) {
     FilmFile& file = sum.file;
     if (machines == Machines::any)
         joinMachines(file, part.file);
+    // A film that does not say these takes the other's word, which the next one is held to.
+    for (const char* key : {"commit", "processor"})
+        if (const std::string ofPart = valueOf(part.file.metadata, key);
+            !ofPart.empty() && valueOf(file.metadata, key).empty())
+            setValue(file.metadata, key, ofPart);
     const FilmCost cost = costOf(file) + costOf(part.file);
     if (windowsOf(file) == windowsOf(part.file))
         add(file.film, part.file.film);

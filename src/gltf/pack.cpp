@@ -106,7 +106,8 @@ void packImages(Json& json, BinaryChunk& chunk, const GltfSource& source, Packed
                 image["mimeType"] = type;
             views.push_back({{"buffer", 0}, {"byteOffset", offset}, {"byteLength", bytes.size()}});
         } catch (const Error& error) {
-            packed.warnings.push_back(fmt::format("{} is left out: {}",
+            image.erase("uri"); // a file of that name beside the new scene would be taken for it
+            packed.warnings.push_back(fmt::format("{} is not packed: {}",
                                                   describe("image", i, isDataUri(uri) ? std::string() : uri),
                                                   error.what()));
         }

@@ -46,13 +46,13 @@ FilmFile recordFilm(const Renderer& renderer, const Scene& scene, RenderReport r
 }
 
 void continueFilm(Renderer& renderer, const FilmFile& file, const std::string& name,
-                  const RenderReport& report) {
+                  const RenderReport& report, Machines machines) {
     const auto refuse = [&](const std::string& why) {
         throw Error(fmt::format("cannot resume from {}: {}", name, why));
     };
     const Metadata ours = headerOf(report);
-    const std::string difference =
-        differences({file.metadata, "the checkpoint"}, {ours, "this render"}, alsoDecisive(report.settings));
+    const std::string difference = differences({file.metadata, "the checkpoint"}, {ours, "this render"},
+                                               alsoDecisive(report.settings), machines);
     if (!difference.empty())
         refuse(fmt::format("it is of another render: {}", difference));
     if (!(file.film.layout == renderer.film().layout()))

@@ -5,6 +5,7 @@
 
 #include "film/film_cost.h"
 #include "film/film_file.h"
+#include "film/film_identity.h"
 #include "render/renderer.h"
 #include "scene/scene.h"
 #include "session/report.h"
@@ -17,7 +18,8 @@ namespace lavalight {
 
 // Lets the renderer go on where the film of the file `name` stands; the report holds the renderer's inputs.
 // Throws Error, naming what differs, where that film has other samples than the renderer would take.
+// `machines`: of which kind those may be that took them.
 void continueFilm(Renderer& renderer, const FilmFile& file, const std::string& name,
-                  const RenderReport& report);
+                  const RenderReport& report, Machines machines);
 
 } // namespace lavalight

@@ -43,7 +43,11 @@ void RenderJob::resumeFrom(Checkpoint& checkpoint) {
     const std::optional<FilmFile> film = checkpoint.read();
     if (!film)
         return;
-    continueFilm(*renderer, *film, checkpoint.file(), report);
+    // A film that lacks no sample is developed on any machine, since none of its bits come from this one.
+    const bool isOnlyShown =
+        !writesExr && film->isComplete() && countOf(film->ranges) == report.settings.stop.samples;
+    continueFilm(*renderer, *film, checkpoint.file(), report,
+                 isOnlyShown ? Machines::any : Machines::ofOneKind);
     before = costOf(*film);
 }
 

@@ -42,7 +42,8 @@ struct RenderJob {
     RenderReport report{};
     // Seconds from the start of the process to the end of the first wave.
     std::optional<double> toFirstSamples{};
-    FilmCost before{}; // what the samples cost that a checkpoint brought
+    bool writesExr = true; // whether an image of the job says which machine its samples are of
+    FilmCost before{};     // what the samples cost that a checkpoint brought
 
     // Enters scene, settings, device and content into the report; shaders may have changed since the renderer
     // was made.

@@ -172,6 +172,7 @@ RenderJob RenderSession::prepare(const ImportOptions& moment, const Outputs& out
                        prepared.settings.background.kind == Background::transparent &&
                            !plan_.style.tone.backdrop);
     }
+    job.writesExr = !outputs.exr.empty();
     job.report.import = moment;
     job.report.camera = prepared.camera.name;
     job.watch.lap("load");

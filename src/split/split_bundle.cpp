@@ -43,6 +43,10 @@ std::string bundleEnvironment(const fs::path& map, const fs::path& folder) {
 std::string bundleShaders(const fs::path& shaders, const fs::path& folder) {
     const std::string name = "shaders";
     std::error_code code;
+    const std::string above = fs::weakly_canonical(shaders).string() + "/";
+    if (fs::weakly_canonical(folder).string().starts_with(above))
+        throw Error(
+            fmt::format("cannot copy {}: the job's folder is in it; try another -o", shaders.string()));
     fs::copy(shaders, folder / name, fs::copy_options::recursive, code);
     if (code)
         throw Error(fmt::format("cannot copy {}: {}", shaders.string(), code.message()));

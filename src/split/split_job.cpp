@@ -35,7 +35,7 @@ void writeSplitJob(const SplitPlan& plan, const std::string& sceneName, const fs
                  {"options", plan.words}};
     if (plan.frames)
         json["frames"] = {plan.frames->first, plan.frames->end};
-    writeFileAtomically(folder / kJobFile, json.dump(2) + "\n");
+    writeFileAtomically(folder / kJobFile, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 SplitJob readSplitJob(const fs::path& folder) {

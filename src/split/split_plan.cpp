@@ -12,7 +12,8 @@ namespace lavalight {
 namespace {
 
 constexpr uint64_t kMostParts = 1'000'000;
-constexpr uint64_t kMostMatrixJobs = 256; // GitHub's limit for a matrix
+constexpr uint32_t kMostPartsOfFrame = 10'000; // their names stand on one command line
+constexpr uint64_t kMostMatrixJobs = 256;      // GitHub's limit for a matrix
 
 // Where the samples of part `i` begin; those of the last end where part `parts` would begin.
 uint32_t firstSampleOf(const SplitPlan& plan, uint32_t i) {
@@ -46,15 +47,18 @@ void requirePossible(const SplitPlan& plan) {
     if (plan.parts < 1 || plan.parts > samples)
         throw UsageError(fmt::format("--parts: {} parts cannot share {} samples; give 1 to {}, or more --spp",
                                      plan.parts, samples, samples));
+    if (plan.parts > kMostPartsOfFrame)
+        throw UsageError(
+            fmt::format("--parts: {} parts are more than {}; give fewer", plan.parts, kMostPartsOfFrame));
     const uint64_t frames = plan.frames ? plan.frames->end - plan.frames->first : 1;
     const uint64_t parts = plan.parts * frames;
     if (parts > kMostParts)
-        throw UsageError(fmt::format("--parts: {} parts of {} frames are more than {}; give fewer",
+        throw UsageError(fmt::format("--parts: {} parts for each of {} frames are more than {}; give fewer",
                                      plan.parts, frames, kMostParts));
     if (plan.engine == SplitEngine::github && parts > kMostMatrixJobs)
-        throw UsageError(
-            fmt::format("--parts: {} parts of {} frames are more than the {} jobs of a matrix; give fewer",
-                        plan.parts, frames, kMostMatrixJobs));
+        throw UsageError(fmt::format(
+            "--parts: {} parts for each of {} frames are more than the {} jobs of a matrix; give fewer",
+            plan.parts, frames, kMostMatrixJobs));
 }
 
 std::string shellQuoted(const std::string& word) {

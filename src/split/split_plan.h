@@ -25,20 +25,20 @@ struct SplitPlan {
     std::vector<std::string> partWords;    // further options of the parts
     std::vector<std::string> pictureWords; // further options of the PNG
     SampleRange samples{0, 64};
-    uint32_t parts = 1;                // of each frame
+    uint32_t parts = 1;                // parts of each frame
     std::optional<SplitFrames> frames; // none: one picture
     double checkpointSeconds = 60.0;
     bool hasPng = false;               // the merged film becomes a PNG, too
     bool isStatistical = false;        // kinds of machine may differ
     bool hasThreads = false;           // `words` say how many threads a part has
     std::string program = "lavalight"; // what the scripts call
-    std::string constraint;            // of Slurm: the nodes' feature; empty: any node
+    std::string constraint;            // feature that Slurm's nodes must have; empty: any node
     SplitEngine engine = SplitEngine::shell;
     std::string folder; // the job's folder, as the user named it
 };
 
 struct SplitPart {
-    std::string name; // of its file, without ending
+    std::string name; // file name without ending
     std::vector<std::string> words;
     std::optional<uint32_t> frame;
 };

@@ -28,12 +28,12 @@ std::string quotedWords(const std::vector<std::string>& words) {
     return text;
 }
 
-// The film of a frame, of all its parts.
+// The file's name for a frame, as in merged_0007.exr; without frames, merged.exr.
 std::string mergedName(const std::optional<uint32_t>& frame, const char* base, const char* ending) {
     return frame ? fmt::format("{}_{:04}{}", base, *frame, ending) : fmt::format("{}{}", base, ending);
 }
 
-// Calls `use` with each frame's parts; a picture without frames is one.
+// Calls `use` with the parts of each frame; a single picture counts as one frame.
 template <typename Use>
 void forEachFrame(const SplitPlan& plan, const Use& use) {
     const std::vector<SplitPart> parts = partsOf(plan);
@@ -115,8 +115,8 @@ std::string templateOf(std::string_view name) {
     return std::string(found->bytes);
 }
 
-// Each @name@ gives way to its value, in one pass: values may hold such marks. A line of its own whose value
-// is empty goes.
+// Replaces each @name@ by its value, in one pass, because values may hold such marks. A line that holds
+// nothing but a mark of empty value is removed.
 std::string filled(std::string_view text, const Values& values) {
     std::string result;
     while (!text.empty()) {

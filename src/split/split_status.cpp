@@ -148,7 +148,7 @@ SplitStatus statusOf(const fs::path& folder) {
         PartStatus part{name, PartState::missing, 0.0, 0.0, {}};
         const fs::path file = folder / kPartsFolder / (name + ".exr");
         std::error_code none;
-        if (fs::exists(file, none)) {
+        if (const auto bytes = fs::file_size(file, none); !none && bytes > 0) {
             part.state = PartState::done;
             part.fraction = 1.0;
             if (!ofDone.isSure())
@@ -156,7 +156,10 @@ SplitStatus statusOf(const fs::path& folder) {
                     ofDone.add(*state);
         } else if (const auto found = signs.find(name); found != signs.end()) {
             const Sign& newest = found->second.front();
-            part.state = newest.age <= silence ? PartState::running : PartState::stopped;
+            // A process that ends by itself takes its .started with it.
+            const bool hasBegun = std::any_of(found->second.begin(), found->second.end(),
+                                              [](const Sign& sign) { return !sign.isCheckpoint; });
+            part.state = hasBegun && newest.age <= silence ? PartState::running : PartState::stopped;
             part.host = newest.host;
             part.secondsSinceSign = newest.age;
             for (const Sign& sign : found->second)
@@ -176,7 +179,7 @@ SplitStatus statusOf(const fs::path& folder) {
 
 std::string textOf(const SplitStatus& status) {
     const size_t done = status.count(PartState::done);
-    std::string text = fmt::format("{}: {} of {} parts are done, {} run, {} stopped, {} are missing\n",
+    std::string text = fmt::format("{}: {} of {} parts done, {} running, {} stopped, {} missing\n",
                                    status.folder, done, status.parts.size(), status.count(PartState::running),
                                    status.count(PartState::stopped), status.count(PartState::missing));
     for (const PartState state : {PartState::running, PartState::stopped, PartState::missing}) {
@@ -187,7 +190,7 @@ std::string textOf(const SplitStatus& status) {
         if (named > kMostNamed)
             text += fmt::format("  and {} more that are {}\n", named - kMostNamed, nameOf(state));
     }
-    if (done == status.parts.size())
+    if (done > 0 && done == status.parts.size())
         text += "all parts are done: merge.sh joins them\n";
     else if (status.secondsLeft)
         text += fmt::format("about {} left, with {} parts at once\n", durationText(*status.secondsLeft),
@@ -209,7 +212,7 @@ std::string jsonOf(const SplitStatus& status) {
         json[nameOf(state)] = status.count(state);
     json["secondsLeft"] = status.secondsLeft ? Json(*status.secondsLeft) : Json(nullptr);
     json["parts"] = std::move(parts);
-    return json.dump(2) + "\n";
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 } // namespace lavalight

@@ -11,7 +11,7 @@ namespace lavalight {
 enum class PartState {
     done,
     running,
-    stopped, // began, and has shown no sign of life for three intervals of its checkpoint
+    stopped, // it began, and none of its files changed for three checkpoint intervals and a minute
     missing
 };
 
@@ -19,8 +19,8 @@ struct PartStatus {
     std::string name;
     PartState state = PartState::missing;
     double fraction = 0.0;         // by the newest checkpoint; 1 where it is done
-    double secondsSinceSign = 0.0; // since the checkpoint, of those that run or stopped
-    std::string host;              // that runs it, or ran it
+    double secondsSinceSign = 0.0; // seconds since its newest file was written, where it runs or stopped
+    std::string host;              // that runs or ran it
 };
 
 struct SplitStatus {

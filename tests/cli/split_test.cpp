@@ -120,6 +120,8 @@ TEST_F(Split, APartThatIsDoneIsNotRenderedAgain) {
     ASSERT_EQ(run("part.sh 1"), 0);
     EXPECT_EQ(log(), "parts/part-0001.exr is done\n");
     EXPECT_EQ(std::filesystem::last_write_time(folder_ / "job/parts/part-0001.exr"), written);
+    for (const char* wrong : {"x", "08", "-1", "''"})
+        EXPECT_EQ(run(std::string("part.sh ") + wrong), kWrongUsage) << wrong;
     EXPECT_EQ(run("part.sh 7"), kWrongUsage);
     EXPECT_NE(log().find("parts.txt has no such line"), std::string::npos) << log();
 }
@@ -160,12 +162,86 @@ TEST_F(Split, APartStartsAfreshWhereTheCheckpointCannotBeUsed) {
     EXPECT_TRUE(std::filesystem::exists(folder_ / "job/parts/part-0000.exr"));
 }
 
+TEST_F(Split, FilmsOfSeveralKindsOfMachineAreDevelopedAndNotWrittenAsOurs) {
+    split({"cornell-box", "--parts", "2", "--size", "16x12", "--spp", "4", "--png", "--statistical"});
+    ASSERT_EQ(run("part.sh 0"), 0) << log();
+    ASSERT_EQ(run("part.sh 1"), 0) << log();
+    FilmFile other = readFilmFile(folder_ / "job/parts/part-0001.exr");
+    setValue(other.metadata, "processor", "another");
+    writeFilmFile(folder_ / "job/parts/part-0001.exr", other);
+    ASSERT_EQ(run("merge.sh"), 0) << log();
+    render({"cornell-box", "--size", "16x12", "--samples", "0:4", "-o", "whole.png"});
+    EXPECT_EQ(readFile(folder_ / "job/merged.png"), readFile(folder_ / "whole.png"));
+    const ProgramResult result =
+        runLavalight({"render", "cornell-box", "--size", "16x12", "--spp", "4", "--checkpoint",
+                      "job/merged.exr", "--resume", "-o", "again.exr"},
+                     folder_.path());
+    EXPECT_EQ(result.exitCode, kFailed) << "an EXR would say that this machine took all samples";
+    EXPECT_NE(result.err.find("processor"), std::string::npos) << result.err;
+}
+
+TEST_F(Split, FoldersMayBeNamedWithASlashAndTheProgramByARelativePath) {
+    std::filesystem::create_symlink(LAVALIGHT_BINARY, folder_ / "program");
+    ::unsetenv("LAVALIGHT");
+    const ProgramResult result = runLavalight({"split", "cornell-box", "--parts", "2", "--size", "16x12",
+                                               "--spp", "2", "--program", "./program", "-o", "job/"},
+                                              folder_.path());
+    ASSERT_EQ(result.exitCode, 0) << result.err;
+    EXPECT_EQ(run("run.sh"), 0) << log();
+}
+
+TEST_F(Split, FlagsThatAreTurnedOffStayOff) {
+    split({"cornell-box", "--parts", "2", "--size", "16x12", "--panorama=false", "--validate=false"});
+    const std::string part = readFile(folder_ / "job/part.sh");
+    EXPECT_EQ(part.find("--panorama"), std::string::npos) << part;
+    EXPECT_EQ(part.find("--validate"), std::string::npos) << part;
+}
+
+TEST_F(Split, ALateFailureKeepsTheCheckpointThatCameFar) {
+    split({"cornell-box", "--parts", "2", "--size", "16x12", "--spp", "8"});
+    render({"cornell-box", "--size", "16x12", "--samples", "0:2", "-o", "two.exr"});
+    FilmFile left = readFilmFile(folder_ / "two.exr");
+    left.ranges = {{0, 4}};
+    left.progress = {2, 0, 0};
+    setValue(left.metadata, "option:spp", "4");
+    writeFilmFile(folder_ / "job/parts/running/part-0000.elsewhere-1.checkpoint.exr", left);
+    // A program that renders, and fails in the end.
+    std::ofstream(folder_ / "failing") << "#!/bin/sh\n'" << LAVALIGHT_BINARY << "' \"$@\"\nexit 1\n";
+    std::filesystem::permissions(folder_ / "failing", std::filesystem::perms::owner_all);
+    ::setenv("LAVALIGHT", (folder_ / "failing").c_str(), 1);
+    EXPECT_EQ(run("part.sh 0"), kFailed);
+    EXPECT_EQ(log().find("starts from its first sample"), std::string::npos) << log();
+}
+
+TEST_F(Split, AnimationsByNameAreSplitByFrames) {
+    test::GltfBuilder builder;
+    const int node = builder.addNode({{"mesh", builder.addTriangle()}});
+    const int times = builder.addAccessor({{"bufferView", builder.addView(std::vector<float>{0.0f, 1.0f})},
+                                           {"componentType", 5126},
+                                           {"count", 2},
+                                           {"type", "SCALAR"},
+                                           {"min", {0.0}},
+                                           {"max", {1.0}}});
+    const int places = builder.addVec3({{0, 0, 0}, {0, 1, 0}});
+    builder.json["animations"] = {
+        {{"name", "a rise"},
+         {"samplers", {{{"input", times}, {"output", places}}}},
+         {"channels", {{{"sampler", 0}, {"target", {{"node", node}, {"path", "translation"}}}}}}}};
+    writeFileAtomically(folder_ / "rise.glb", builder.glb());
+    split({"rise.glb", "--parts", "2", "--size", "16x12", "--spp", "4", "--frames", "6:7", "--fps", "12",
+           "--animation", "a rise"});
+    ASSERT_EQ(run("run.sh"), 0) << log();
+    render({"rise.glb", "--size", "16x12", "--samples", "0:4", "--frames", "6:7", "--fps", "12",
+            "--animation", "a rise", "-o", "whole.exr"});
+    expectSameFilm("job/merged_0006.exr", "whole_0006.exr");
+}
+
 TEST_F(Split, TheStatusCountsWhatIsThere) {
     split({"cornell-box", "--parts", "2", "--size", "16x12", "--spp", "8"});
     ASSERT_EQ(run("part.sh 0"), 0) << log();
     const ProgramResult result = runLavalight({"status", "job"}, folder_.path());
     EXPECT_EQ(result.exitCode, 0);
-    EXPECT_NE(result.out.find("1 of 2 parts are done, 0 run, 0 stopped, 1 are missing"), std::string::npos)
+    EXPECT_NE(result.out.find("1 of 2 parts done, 0 running, 0 stopped, 1 missing"), std::string::npos)
         << result.out;
     EXPECT_EQ(runLavalight({"status", "nowhere"}, folder_.path()).exitCode, kFailed);
 }
@@ -178,13 +254,17 @@ TEST_F(Split, WhatCannotBeSplitIsRefusedBeforeAnythingIsWritten) {
     expectRefusal({"cornell-box", "--parts", "2", "--camera-typo"}, kWrongUsage, "--camera-typo");
     expectRefusal({"cornell-box", "--parts", "2", "--fov", "500"}, kWrongUsage, "--fov");
     expectRefusal({"cornell-box", "--parts", "2", "--frame", "3"}, kWrongUsage, "--frames A:B");
+    expectRefusal({"cornell-box", "--parts", "2", "--aov", "motion"}, kWrongUsage, "--frames or --turntable");
+    expectRefusal({"cornell-box", "--parts", "2", "--camera", ""}, kWrongUsage, "its value is empty");
+    expectRefusal({"cornell-box", "--parts", "20000", "--spp", "20000"}, kWrongUsage, "more than 10000");
+    expectRefusal({"cornell-box", "--parts", "2", "--shaders", "."}, kFailed, "the job's folder is in it");
     expectRefusal({"missing.gltf", "--parts", "2"}, kFailed, "missing.gltf");
     std::filesystem::create_directory(folder_ / "full");
     writeFileAtomically(folder_ / "full/file", std::string_view("x"));
     const ProgramResult result =
         runLavalight({"split", "cornell-box", "--parts", "2", "-o", "full"}, folder_.path());
     EXPECT_EQ(result.exitCode, kFailed);
-    EXPECT_NE(result.err.find("it is there already"), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find("it is not an empty folder"), std::string::npos) << result.err;
 }
 
 } // namespace

@@ -5,12 +5,12 @@
 
 namespace lavalight {
 
-// What may decide the last bits of compiled kernels: maker, family and model, and the widest vectors, as in
-// "GenuineIntel family 6 model 85, avx2 fma avx512f". Clock, cores and stepping are left out. The
-// architecture's name where the system says no more.
+// What may decide the last bits of compiled kernels: maker, family, model and vector extensions, as in
+// "GenuineIntel family 6 model 85, sse4_1 avx avx2 fma avx512f". Clock, number of cores and stepping are left
+// out. Where the system says none of this, it is the architecture's name.
 [[nodiscard]] std::string processorKind();
 
-// The same from the text of /proc/cpuinfo; empty where it does not say them.
+// The kind by the text of /proc/cpuinfo; empty where the text lacks maker, family or model.
 [[nodiscard]] std::string processorKindIn(const std::string& cpuinfo);
 
 // The machine's name in its network, as far as it may stand in a file's name.

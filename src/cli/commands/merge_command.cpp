@@ -64,13 +64,13 @@ int MergeCommand::run() {
     Outputs outputs;
     addPicture(outputs, output_, "-o");
     if (outputs.exr.empty())
-        throw UsageError(fmt::format("-o: {} is no .exr file, which parts are joined in", output_));
+        throw UsageError(fmt::format("-o: {} does not end in .exr; give the name of an EXR file", output_));
     requireApart(outputs, inputs);
     requireWritable(output_);
     const NamedFilm sum = joined();
     const SampleRanges& ranges = sum.file.ranges;
     if (ranges.size() > 1)
-        spdlog::warn("the samples {} leave gaps: {} holds what there is", textOf(ranges), output_);
+        spdlog::warn("the samples {} have gaps: {} holds only these", textOf(ranges), output_);
     writeFilmFile(output_, sum.file);
     fmt::print("{}: {}x{}, samples {} of {} files, bias ledger: {}\n", output_, sum.file.film.width,
                sum.file.film.height, textOf(ranges), parts_.size(),

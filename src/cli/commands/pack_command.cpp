@@ -22,14 +22,13 @@ PackCommand::PackCommand(CLI::App& app)
         ->type_name("SCENE")
         ->default_str("")
         ->required();
-    parser().add_option("-o,--output", output_, "The one file")->type_name("OUT.glb")->required();
+    parser().add_option("-o,--output", output_, "GLB file to write")->type_name("OUT.glb")->required();
     addAllowExternal(parser(), options_);
 }
 
 int PackCommand::run() {
     if (std::filesystem::path(output_).extension() != ".glb")
-        throw UsageError(
-            fmt::format("-o: {} does not end in .glb, which is what a packed scene is", output_));
+        throw UsageError(fmt::format("-o: {} does not end in .glb; give a name that does", output_));
     InputFiles inputs;
     inputs.add(scene_, "the scene");
     for (const std::filesystem::path& file : referencedFiles(scene_))

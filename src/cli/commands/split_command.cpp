@@ -1,6 +1,8 @@
 #include "cli/commands/split_command.h"
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <span>
 #include <system_error>
 
@@ -29,15 +31,22 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A folder in the making, which gets its name when all is in it; else it is removed.
+// `job` of `job/`.
+fs::path withoutSlash(const fs::path& path) {
+    return path.has_filename() ? path : path.parent_path();
+}
+
+// A folder under a temporary name. finish() gives it its own name; without finish() it is removed.
 class NewFolder {
   public:
-    explicit NewFolder(const fs::path& name) : name_(name) {
+    explicit NewFolder(const fs::path& name) : name_(withoutSlash(fs::weakly_canonical(fs::absolute(name)))) {
         path_ = fs::path(name_.string() + fmt::format(".{}.part", ::getpid()));
         std::error_code code;
+        if (name_ == fs::current_path(code))
+            throw Error("cannot write .: it is the working folder; try the name of a new one");
         if (fs::exists(name_, code) && !(fs::is_directory(name_, code) && fs::is_empty(name_, code)))
             throw Error(
-                fmt::format("cannot write {}: it is there already; try another folder", name_.string()));
+                fmt::format("cannot write {}: it is not an empty folder; try another name", name_.string()));
         fs::create_directories(path_, code);
         if (code)
             throw Error(fmt::format("cannot write {}: {}", name_.string(), code.message()));
@@ -65,8 +74,7 @@ class NewFolder {
 } // namespace
 
 SplitCommand::SplitCommand(CLI::App& app)
-    : Command(app, "split",
-              "Write a folder with a render in parts, which many machines may render, and what joins them"),
+    : Command(app, "split", "Write a folder that renders a scene in parts, on many machines, and joins them"),
       options_(parser()), frames_(parser()), shaders_(parser()) {
     parser()
         .add_option("input", scene_,
@@ -85,15 +93,17 @@ SplitCommand::SplitCommand(CLI::App& app)
                       "Merge parts of different devices, drivers and processors, too");
     parser()
         .add_option("--constraint", constraint_,
-                    "Of --for slurm: run on nodes with this feature alone, such as one kind of processor")
+                    "With --for slurm: run only on nodes with this feature, such as one kind of processor")
         ->type_name("FEATURE")
         ->default_str("");
-    parser().add_option("--program", program_, "What the scripts call")->type_name("FILE");
+    parser()
+        .add_option("--program", program_, "Program that the scripts call: a name on the path, or a file")
+        ->type_name("FILE");
     parser()
         .add_option("--checkpoint-every", checkpointSeconds_, "Seconds between two checkpoints of a part")
         ->type_name("SECONDS");
     parser()
-        .add_option("-o,--output", output_, "The folder, which is new or empty")
+        .add_option("-o,--output", output_, "Folder to write; it must be new or empty")
         ->type_name("JOB")
         ->required();
 }
@@ -102,23 +112,30 @@ void SplitCommand::checkOptions() const {
     for (const char* option : {"--time", "--target-error"})
         if (parser().count(option) > 0)
             throw UsageError(fmt::format(
-                "{}: parts are ranges of samples, and what it will stop at is not known before; give "
-                "--spp",
+                "{}: the number of samples has to be known before parts are cut; give --spp instead",
                 option));
     if (!hasPng_)
         for (const char* option : {"--tonemap", "--exposure", "--denoise"})
             if (parser().count(option) > 0)
-                throw UsageError(fmt::format("{}: is for a PNG; give --png, or leave it out", option));
+                throw UsageError(fmt::format("{}: only a PNG uses it; give --png, or leave it out", option));
     if (options_.hasBackdrop() && !hasPng_)
         throw UsageError("--background: a colour is for a PNG; give --png, or --background transparent");
     if (!constraint_.empty() && engine_ != SplitEngine::slurm)
-        throw UsageError("--constraint: is for Slurm; give --for slurm, or leave it out");
-    if (engine_ == SplitEngine::github && fs::path(output_).is_absolute())
-        throw UsageError(fmt::format(
-            "-o: {} is not a path from the repository's root, which --for github needs; call it from there",
-            output_));
+        throw UsageError("--constraint: only Slurm uses it; give --for slurm, or leave it out");
+    if (engine_ == SplitEngine::github &&
+        (fs::path(output_).is_absolute() || fs::path(output_).lexically_normal().string().starts_with("..")))
+        throw UsageError(fmt::format("-o: {} is an absolute path, and --for github needs one from the "
+                                     "repository's root; call split there",
+                                     output_));
+    if ((options_.layers() >> kMotionPlane & 1u) != 0 && !frames_.isAsked())
+        throw UsageError("--aov motion: motion leads to the next frame; give --frames or --turntable");
+    const auto isControl = [](unsigned char c) { return std::iscntrl(c) != 0; };
+    for (const std::string& text : {constraint_, output_})
+        if (std::any_of(text.begin(), text.end(), isControl))
+            throw UsageError(
+                "--constraint and -o: line breaks and other control characters have no place in scripts");
     if (frames_.single())
-        throw UsageError("--frame: is one frame; give --frames A:B, or leave it out");
+        throw UsageError("--frame: one frame is no sequence to split; give --frames A:B");
     if (!(checkpointSeconds_ >= 0.0 && checkpointSeconds_ <= 1e9))
         throw UsageError(
             fmt::format("--checkpoint-every: {} is outside the range 0 to 1000000000", checkpointSeconds_));
@@ -131,9 +148,12 @@ SplitPlan SplitCommand::plan() const {
     plan.hasPng = hasPng_;
     plan.isStatistical = isStatistical_;
     plan.constraint = constraint_;
-    plan.program = program_;
+    // The scripts run in the job's folder.
+    plan.program = program_.find('/') == std::string::npos
+                       ? program_
+                       : fs::absolute(program_).lexically_normal().string();
     plan.checkpointSeconds = checkpointSeconds_;
-    plan.folder = output_;
+    plan.folder = withoutSlash(fs::path(output_).lexically_normal()).string();
     plan.hasThreads = parser().count("--threads") > 0;
     if (frames_.isAsked())
         plan.frames = SplitFrames{frames_.range().first, frames_.range().end};
@@ -156,10 +176,9 @@ SplitPlan SplitCommand::plan() const {
     return plan;
 }
 
-void SplitCommand::bundle(const RenderPlan& render, SplitPlan& plan, const fs::path& folder) const {
-    plan.scene = isBuiltin(scene_)
-                     ? scene_
-                     : bundleScene(scene_, options_.scene().importOptions().allowsExternal, folder);
+void SplitCommand::bundle(const RenderPlan& render, bool allowsExternal, SplitPlan& plan,
+                          const fs::path& folder) const {
+    plan.scene = isBuiltin(scene_) ? scene_ : bundleScene(scene_, allowsExternal, folder);
     if (const std::string& map = render.settings.lighting.mapFile; !map.empty())
         plan.words.insert(plan.words.end(), {"--env", bundleEnvironment(map, folder)});
     else if (parser().count("--env") > 0)
@@ -175,7 +194,7 @@ int SplitCommand::run() {
     const uint32_t first = render.settings.image.firstSample;
     plan.samples = {first, first + render.settings.stop.samples};
     requirePossible(plan);
-    // What a machine would refuse is told here, before there are any.
+    // What a part's render would refuse is refused here, before anything is written.
     const ImportOptions moment =
         plan.frames && !frames_.isTurntable()
             ? options_.scene().importOptionsAt(frames_.range().secondsOf(plan.frames->first))
@@ -183,7 +202,7 @@ int SplitCommand::run() {
     static_cast<void>(prepareScene(render, moment));
     static_cast<void>(shaders_.overlay());
     const NewFolder folder(output_);
-    bundle(render, plan, folder.path());
+    bundle(render, moment.allowsExternal, plan, folder.path());
     writeSplitJob(plan, scene_, folder.path());
     folder.finish();
     const size_t parts = partsOf(plan).size();

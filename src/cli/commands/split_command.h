@@ -22,7 +22,8 @@ class SplitCommand : public Command {
     void checkOptions() const;
     [[nodiscard]] SplitPlan plan() const;
     // Copies what the parts read into the job's folder, and names it there.
-    void bundle(const RenderPlan& render, SplitPlan& plan, const std::filesystem::path& folder) const;
+    void bundle(const RenderPlan& render, bool allowsExternal, SplitPlan& plan,
+                const std::filesystem::path& folder) const;
 
     PictureOptions options_;
     FrameOptions frames_;

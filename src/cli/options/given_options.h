@@ -9,8 +9,8 @@
 
 namespace lavalight {
 
-// The options that the user gave, in the order of --help, with their values as they were written; without
-// those of `except`, which are names without dashes.
+// Options that the user gave, in the order of --help, as --name=VALUE, since a value may begin with a dash;
+// `except` holds names, without dashes, to leave out. Options of several values lose all but the first.
 [[nodiscard]] std::vector<std::string> wordsGiven(const CLI::App& parser,
                                                   const std::set<std::string>& except);
 

@@ -1,7 +1,7 @@
 #!/bin/sh
-# Joins the parts. Each is named, so that one which is missing fails by its name.
+# Joins the parts. All are listed by name, so that the merge fails with the name of a missing one.
 set -eu
-cd "$(dirname "$0")"
+CDPATH='' cd -- "$(dirname -- "$0")"
 lavalight=${LAVALIGHT:-@program@}
 @merges@
 rm -rf parts/running

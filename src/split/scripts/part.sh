@@ -1,15 +1,18 @@
 #!/bin/sh
-# Renders one part, whose line in parts.txt has this number, counted from 0:
+# Renders the part on one line of parts.txt; lines count from 0:
 #
 #     ./part.sh 3 [more options of lavalight render]
 #
 # A part that is done is left alone. A part that was interrupted goes on from its checkpoint. Two processes that render one part
-# do no harm: each writes files of its own name, and in the end both rename the same film to the part's name.
+# do no harm: each writes its own files, and both give the finished film, whose bits are equal, the part's name.
 set -eu
-cd "$(dirname "$0")"
+CDPATH='' cd -- "$(dirname -- "$0")"
 lavalight=${LAVALIGHT:-@program@}
 
-[ $# -gt 0 ] || { echo "part.sh: needs the number of a part; try ./part.sh 0" >&2; exit 2; }
+[ $# -gt 0 ] || { echo "part.sh: cannot tell which part to render; try ./part.sh 0" >&2; exit 2; }
+case $1 in
+'' | *[!0-9]* | 0?*) echo "part.sh: cannot render part $1: it is not the number of a part; try ./part.sh 0" >&2; exit 2 ;;
+esac
 line=$(sed -n "$(($1 + 1))p" parts.txt)
 [ -n "$line" ] || { echo "part.sh: cannot render part $1: parts.txt has no such line" >&2; exit 2; }
 shift
@@ -18,7 +21,8 @@ set -- $line "$@"
 name=$1
 shift
 part=parts/$name.exr
-if [ -e "$part" ]; then
+is_done() { [ -f "$part" ] && [ -s "$part" ]; }
+if is_done; then
     echo "$part is done"
     exit 0
 fi
@@ -39,7 +43,7 @@ render() {
 trap : INT TERM # The program gets the signal, too, writes its checkpoint, and says so by its status.
 status=0
 render "$@" || status=$?
-if [ "$status" -eq 1 ] && [ -n "$left" ]; then
+if [ "$status" -eq 1 ] && [ -n "$left" ] && ! is_done && cmp -s "$left" "$mine.checkpoint.exr"; then
     # A checkpoint may be damaged, or of another kind of processor, whose bits differ.
     echo "part.sh: $name starts from its first sample, without the checkpoint $left" >&2
     rm -f "$mine.checkpoint.exr"
@@ -48,7 +52,8 @@ if [ "$status" -eq 1 ] && [ -n "$left" ]; then
 fi
 if [ "$status" -ne 0 ]; then
     rm -f "$mine.started" "$mine.done.exr"
+    ! is_done || exit 0 # by another process
     exit "$status"
 fi
-mv "$mine.done.exr" "$part"
+mv "$mine.done.exr" "$part" || is_done # The merge of another process removes what is in parts/running.
 rm -f "$mine".* "$left"

@@ -5,7 +5,7 @@
 #
 # A picture of fewer samples is noisier; nothing else is wrong with it.
 set -eu
-cd "$(dirname "$0")"
+CDPATH='' cd -- "$(dirname -- "$0")"
 lavalight=${LAVALIGHT:-@program@}
 preview() { # preview OUT.exr PARTS...
     out=$1

@@ -4,7 +4,7 @@
 #     ./run.sh            all parts, then ./merge.sh
 #     ./run.sh 0 3        parts 0 to 3 alone: give other machines, which share this folder, the others
 set -eu
-cd "$(dirname "$0")"
+CDPATH='' cd -- "$(dirname -- "$0")"
 first=${1:-0}
 last=${2:-@last@}
 number=$first

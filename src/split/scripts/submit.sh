@@ -5,7 +5,7 @@
 #
 # The folder has to lie where all nodes see it. `lavalight status .` says how far the parts are.
 set -eu
-cd "$(dirname "$0")"
+CDPATH='' cd -- "$(dirname -- "$0")"
 mkdir -p logs
 array=$(sbatch --parsable "$@" render.sbatch)
 merge=$(sbatch --parsable --dependency="afterok:${array%%;*}" --kill-on-invalid-dep=yes "$@" merge.sbatch)

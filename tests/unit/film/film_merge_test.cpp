@@ -127,6 +127,12 @@ TEST(FilmMerge, FilmsOfOtherProcessorsAreRefusedWithARemedy) {
     join(withOlder, named("b.exr", someFilm(2, {8, 16}))); // films of before do not say a processor
     EXPECT_EQ(valueOf(withOlder.file.metadata, "processor"), "A family 1");
     EXPECT_EQ(valueOf(withOlder.file.metadata, "machines"), "");
+    NamedFilm older = named("a.exr", someFilm(1, {0, 8}));
+    join(older, named("b.exr", onMachine(someFilm(2, {8, 16}), "A family 1")));
+    EXPECT_NE(errorOf([&] {
+                  join(older, named("c.exr", onMachine(someFilm(3, {16, 24}), "B family 2")));
+              }),
+              "");
 }
 
 TEST(FilmMerge, StatisticalMergingCountsEachSampleAndNamesTheKinds) {

@@ -135,7 +135,7 @@ TEST(SplitScripts, TheMatrixHasANumberForEachPart) {
     plan.engine = SplitEngine::github;
     const std::string workflow = scriptOf(plan, "workflow.yml");
     EXPECT_TRUE(has(workflow, "number: [0, 1, 2, 3]")) << workflow;
-    EXPECT_TRUE(has(workflow, "run: out/job/part.sh ${{ matrix.number }}"));
+    EXPECT_TRUE(has(workflow, "  out/job/part.sh ${{ matrix.number }}"));
 }
 
 TEST(SplitScripts, KindsOfMachineAreMixedOnlyWhenAsked) {

@@ -26,6 +26,11 @@ class SplitStatusTest : public testing::Test {
         writeSplitJob(plan, "furnace", folder_.path());
     }
     void finish(const std::string& part) const { write("parts/" + part + ".exr", 16); }
+    // A process that renders a part: its mark and, with some samples, its checkpoint.
+    void run(const std::string& process, uint32_t samples, double secondsASample = 1.0) const {
+        writeFileAtomically(folder_ / ("parts/running/" + process + ".started"), std::string_view());
+        write("parts/running/" + process + ".checkpoint.exr", samples, secondsASample);
+    }
     void write(const std::string& name, uint32_t samples, double secondsASample = 1.0) const {
         FilmFile film = test::someFilm(1, {0, 16});
         film.progress = {samples, 0, 0};
@@ -50,7 +55,8 @@ TEST_F(SplitStatusTest, ANewJobMissesAllItsParts) {
 TEST_F(SplitStatusTest, PartsAreDoneRunningStoppedOrMissing) {
     finish("part-0000");
     writeFileAtomically(folder_ / "parts/running/part-0001.node-7.example-12.started", std::string_view());
-    write("parts/running/part-0002.node-8-13.checkpoint.exr", 4);
+    run("part-0002.node-8-13", 4);
+    age("parts/running/part-0002.node-8-13.started", 500.0);
     age("parts/running/part-0002.node-8-13.checkpoint.exr", 241.0); // three intervals of 60 s, and 60 s
     const SplitStatus now = status();
     EXPECT_EQ(now.parts[0].state, PartState::done);
@@ -65,8 +71,8 @@ TEST_F(SplitStatusTest, PartsAreDoneRunningStoppedOrMissing) {
 
 TEST_F(SplitStatusTest, TheTimeLeftFollowsFromFinishedPartsAndThoseThatRun) {
     finish("part-0000"); // took 16 s
-    write("parts/running/part-0001.a-1.checkpoint.exr", 8, 3.0);
-    write("parts/running/part-0002.b-2.checkpoint.exr", 12, 3.0);
+    run("part-0001.a-1", 8, 3.0);
+    run("part-0002.b-2", 12, 3.0);
     ASSERT_TRUE(status().secondsLeft);
     EXPECT_DOUBLE_EQ(*status().secondsLeft, (0.5 + 0.25 + 1.0) * 16.0 / 2.0);
     std::filesystem::remove(folder_ /
@@ -75,16 +81,29 @@ TEST_F(SplitStatusTest, TheTimeLeftFollowsFromFinishedPartsAndThoseThatRun) {
 }
 
 TEST_F(SplitStatusTest, TheNewestSignOfAPartCounts) {
-    write("parts/running/part-0001.a-1.checkpoint.exr", 12);
+    run("part-0001.a-1", 12);
     age("parts/running/part-0001.a-1.checkpoint.exr", 5000.0);
-    write("parts/running/part-0001.b-2.checkpoint.exr", 8);
+    age("parts/running/part-0001.a-1.started", 5000.0);
+    run("part-0001.b-2", 8);
     const PartStatus part = status().parts[1];
     EXPECT_EQ(part.state, PartState::running);
     EXPECT_EQ(part.host, "b");
     EXPECT_LT(part.secondsSinceSign, 100.0);
 }
 
+TEST_F(SplitStatusTest, AnInterruptedPartHasStoppedAtOnce) {
+    write("parts/running/part-0001.a-1.checkpoint.exr", 8); // its process has ended and taken its mark along
+    EXPECT_EQ(status().parts[1].state, PartState::stopped);
+    EXPECT_DOUBLE_EQ(status().parts[1].fraction, 0.5);
+}
+
+TEST_F(SplitStatusTest, AnEmptyFileIsNoPart) {
+    writeFileAtomically(folder_ / "parts/part-0000.exr", std::string_view());
+    EXPECT_EQ(status().parts[0].state, PartState::missing);
+}
+
 TEST_F(SplitStatusTest, DamagedCheckpointsSayNothing) {
+    writeFileAtomically(folder_ / "parts/running/part-0001.a-1.started", std::string_view());
     writeFileAtomically(folder_ / "parts/running/part-0001.a-1.checkpoint.exr",
                         std::string_view("not an image"));
     EXPECT_EQ(status().parts[1].state, PartState::running);
@@ -93,9 +112,9 @@ TEST_F(SplitStatusTest, DamagedCheckpointsSayNothing) {
 
 TEST_F(SplitStatusTest, TextAndJsonSayTheSame) {
     finish("part-0000");
-    write("parts/running/part-0001.a-1.checkpoint.exr", 8);
+    run("part-0001.a-1", 8);
     const std::string text = textOf(status());
-    EXPECT_NE(text.find("1 of 4 parts are done, 1 run, 0 stopped, 2 are missing"), std::string::npos) << text;
+    EXPECT_NE(text.find("1 of 4 parts done, 1 running, 0 stopped, 2 missing"), std::string::npos) << text;
     EXPECT_NE(text.find("part-0001  running on a, 50 %"), std::string::npos) << text;
     const auto json = nlohmann::json::parse(jsonOf(status()));
     EXPECT_EQ(json["done"], 1);
