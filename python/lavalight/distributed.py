@@ -117,7 +117,7 @@ def _client(client: Any) -> Any:
     try:
         return distributed.get_client()
     except ValueError:
-        raise _lavalight.Error("cannot find a Dask cluster: there is no client; try client=distributed.Client(), which starts workers on "
+        raise _lavalight.Error("cannot find a Dask cluster: no client is open; try client=distributed.Client(), which starts workers on "
                                "this machine where it is given no address") from None
 
 

@@ -166,7 +166,7 @@ def test_what_cannot_be_had_is_refused_before_it_begins(client, box, keywords, e
 
 
 def test_without_a_cluster_one_is_told_how_to_get_one(box):
-    with pytest.raises(lavalight.Error, match="there is no client; try client="):
+    with pytest.raises(lavalight.Error, match="no client is open; try client="):
         on_cluster.render(box)
 
 

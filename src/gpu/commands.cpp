@@ -12,7 +12,8 @@ namespace {
 // Timestamps of one submission; what goes beyond is run but not timed.
 constexpr uint32_t kMaxStamps = 4096;
 
-// Its functions are the device's own: those of vk::CommandBuffer would link a loader of the build's choice.
+// The command buffer calls the device's own functions: those of vk::CommandBuffer would link the build's
+// loader.
 const vk::raii::CommandBuffer& recorded(const std::vector<vk::raii::CommandBuffer>& buffers) {
     return buffers.front();
 }

@@ -59,8 +59,8 @@ void fillResults(RenderReport& report, const Renderer& renderer, const gpu::Devi
 [[nodiscard]] Metadata exrMetadata(const RenderReport& report);
 [[nodiscard]] std::string reportJson(const RenderReport& report);
 
-// The same of a film that was rendered elsewhere: what its header and its samples say. `rendering`: the
-// film's; `ledger`: its header's, and what has been done to the rendering since.
+// The JSON report of a film that was rendered elsewhere: what its header and its samples say. `rendering`:
+// the film's; `ledger`: its header's, and what has been done to the rendering since.
 [[nodiscard]] std::string filmReportJson(const FilmFile& film, const Rendering& rendering,
                                          const std::vector<LedgerEntry>& ledger,
                                          const std::optional<ToneSettings>& tone);

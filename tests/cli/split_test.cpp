@@ -44,6 +44,15 @@ class Split : public testing::Test {
         const ProgramResult result = runLavalight(arguments, folder_.path());
         ASSERT_EQ(result.exitCode, 0) << result.err;
     }
+    // What an interrupted render of part 0, of four samples, leaves after two.
+    void leaveCheckpoint() const {
+        render({"cornell-box", "--size", "16x12", "--samples", "0:2", "-o", "two.exr"});
+        FilmFile left = readFilmFile(folder_ / "two.exr");
+        left.ranges = {{0, 4}};
+        left.progress = {2, 0, 0};
+        setValue(left.metadata, "option:spp", "4");
+        writeFilmFile(folder_ / "job/parts/running/part-0000.elsewhere-1.checkpoint.exr", left);
+    }
     void expectSameFilm(const std::string& a, const std::string& b) const {
         const FilmFile first = readFilmFile(folder_ / a);
         const FilmFile second = readFilmFile(folder_ / b);
@@ -140,13 +149,7 @@ TEST_F(Split, AMissingPartFailsTheMergeByItsNameAndAPreviewGoesWithoutIt) {
 TEST_F(Split, APartGoesOnFromTheCheckpointThatAKilledProcessLeft) {
     split({"cornell-box", "--parts", "2", "--size", "16x12", "--spp", "8", "--wave-size", "192"});
     render({"cornell-box", "--size", "16x12", "--samples", "0:8", "-o", "whole.exr"});
-    // What an interrupted render of part 0 would have left: two of its four samples.
-    render({"cornell-box", "--size", "16x12", "--samples", "0:2", "-o", "two.exr"});
-    FilmFile left = readFilmFile(folder_ / "two.exr");
-    left.ranges = {{0, 4}};
-    left.progress = {2, 0, 0};
-    setValue(left.metadata, "option:spp", "4");
-    writeFilmFile(folder_ / "job/parts/running/part-0000.elsewhere-1.checkpoint.exr", left);
+    leaveCheckpoint();
     ASSERT_EQ(run("part.sh 0"), 0) << log();
     EXPECT_EQ(log().find("starts from its first sample"), std::string::npos) << log();
     ASSERT_EQ(run("run.sh"), 0) << log();
@@ -199,12 +202,7 @@ TEST_F(Split, FlagsThatAreTurnedOffStayOff) {
 
 TEST_F(Split, ALateFailureKeepsTheCheckpointThatCameFar) {
     split({"cornell-box", "--parts", "2", "--size", "16x12", "--spp", "8"});
-    render({"cornell-box", "--size", "16x12", "--samples", "0:2", "-o", "two.exr"});
-    FilmFile left = readFilmFile(folder_ / "two.exr");
-    left.ranges = {{0, 4}};
-    left.progress = {2, 0, 0};
-    setValue(left.metadata, "option:spp", "4");
-    writeFilmFile(folder_ / "job/parts/running/part-0000.elsewhere-1.checkpoint.exr", left);
+    leaveCheckpoint();
     // A program that renders, and fails in the end.
     std::ofstream(folder_ / "failing") << "#!/bin/sh\n'" << LAVALIGHT_BINARY << "' \"$@\"\nexit 1\n";
     std::filesystem::permissions(folder_ / "failing", std::filesystem::perms::owner_all);

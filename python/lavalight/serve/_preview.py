@@ -21,7 +21,7 @@ from ._renders import Job
 from ._scenes import KeptScene, Scenes
 from ._settings import Limits, Settings
 
-# Of the keywords of load() and render(), those that decide a picture without reading a file.
+# The keywords of load() and render() that decide a picture without reading a file.
 SCENE_KEYWORDS = frozenset({"at", "animation", "variant", "env", "env_rotation", "env_intensity", "sun_elevation", "sun_azimuth",
                             "turbidity"})
 RENDER_KEYWORDS = frozenset({"size", "spp", "seed", "max_bounces", "camera", "look_from", "look_at", "up", "view", "fov", "intrinsics",
@@ -131,7 +131,7 @@ def read_preview(request: dict[str, Any], scenes: Scenes, settings: Settings) ->
     """Raises Refusal for a keyword that there is not, and for more than the limits allow."""
     for name in request:
         if name not in SCENE_KEYWORDS | RENDER_KEYWORDS | OWN_KEYWORDS:
-            raise Refusal(400, f"cannot read the request: there is no keyword {name[:64]!r}")
+            raise Refusal(400, f"cannot read the request: {name[:64]!r} is not a keyword")
     wanted = request.get("format", "png")
     if wanted not in FORMATS:
         raise Refusal(400, "cannot read the request: format is not png, jpeg or exr")

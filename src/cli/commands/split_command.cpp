@@ -135,7 +135,7 @@ void SplitCommand::checkOptions() const {
             throw UsageError(
                 "--constraint and -o: line breaks and other control characters have no place in scripts");
     if (frames_.single())
-        throw UsageError("--frame: one frame is no sequence to split; give --frames A:B");
+        throw UsageError("--frame: split takes a sequence of frames; give --frames A:B");
     if (!(checkpointSeconds_ >= 0.0 && checkpointSeconds_ <= 1e9))
         throw UsageError(
             fmt::format("--checkpoint-every: {} is outside the range 0 to 1000000000", checkpointSeconds_));
