@@ -28,7 +28,7 @@ class Model:
     @classmethod
     def of(cls, name: str, data: bytes | None, environment: tuple[str, bytes] | None) -> Model:
         content = hashlib.sha256()
-        for part in (name.encode(), data, *(("", b"") if environment is None else environment)):
+        for part in (os.fsencode(name), data, *(("", b"") if environment is None else environment)):
             part = part.encode() if isinstance(part, str) else part
             content.update(b"-" if part is None else struct.pack("<Q", len(part)) + part)
         return cls(name, data, environment, content.hexdigest()[:32])

@@ -10,7 +10,7 @@ from conftest import SMALL
 
 # A value that is not the default, for each keyword of render().
 VALUES = {
-    "size": (24, 12), "spp": 3, "samples": (2, 5), "time": 30.0, "target_error": 0.5, "preset": "mis", "sampler": "independent",
+    "size": (24, 12), "spp": 3, "samples": (2, 5), "time": 0.3, "target_error": 0.5, "preset": "mis", "sampler": "independent",
     "hemisphere": "uniform", "nee": False, "light_selection": "power", "mis": "balance", "roulette": "off", "roulette_start": 2,
     "roulette_probability": 0.7, "mis_survival": True, "fresnel": "schlick", "multiple_scattering": True,
     "texture_filter": "stochastic", "smooth_terminator": False, "max_bounces": 2, "clamp_indirect": 3.0, "filter": "tent",

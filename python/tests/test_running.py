@@ -111,9 +111,12 @@ def run(code, **more):
     return subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=120, **more)
 
 
-def test_ctrl_c_raises_keyboard_interrupt_soon():
+@pytest.mark.parametrize("work", ["scene.render(size=(512, 512), spp=100000)",
+                                  "lavalight.lab('dice', samples=2**29)",  # one estimate of many samples
+                                  "lavalight.lab('mis', samples=2**16)"])  # renders
+def test_ctrl_c_raises_keyboard_interrupt_soon(work):
     code = ("import lavalight, sys\nscene = lavalight.load('cornell-box')\nscene.render(size=(8, 8), spp=1)\nprint('ready', flush=True)\n"
-            "try:\n    scene.render(size=(512, 512), spp=100000)\nexcept KeyboardInterrupt:\n    print('interrupted', flush=True)\n"
+            f"try:\n    {work}\nexcept KeyboardInterrupt:\n    print('interrupted', flush=True)\n"
             "print(scene.render(size=(8, 8), spp=1).complete)")
     process = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True)
     assert process.stdout.readline() == "ready\n"
@@ -157,9 +160,10 @@ def test_memory_does_not_grow_over_many_renders(box):
     assert memory() - before < 8e6 + 20e3 * count
 
 
-def test_a_forked_child_of_a_process_that_rendered_is_told_why_it_cannot():
+@pytest.mark.parametrize("work", ["scene.render(size=(8, 8), spp=1)", "lavalight.lab('dice')"])
+def test_a_forked_child_of_a_process_that_rendered_is_told_why_it_cannot(work):
     code = ("import lavalight, os\nscene = lavalight.load('cornell-box')\nscene.render(size=(8, 8), spp=1)\nchild = os.fork()\n"
-            "if child == 0:\n    try:\n        scene.render(size=(8, 8), spp=1)\n    except lavalight.Error as error:\n"
+            f"if child == 0:\n    try:\n        {work}\n    except lavalight.Error as error:\n"
             "        print(error, flush=True)\n    os._exit(0)\nos.waitpid(child, 0)\nprint(scene.render(size=(8, 8), spp=1).complete)")
     done = run(code)
     assert "spawn" in done.stdout and done.stdout.endswith("True\n"), done.stdout + done.stderr

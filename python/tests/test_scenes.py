@@ -1,5 +1,8 @@
 """Scenes: from files, from arrays, changed in place."""
 import logging
+import os
+import pickle
+import shutil
 
 import lavalight
 import numpy as np
@@ -31,6 +34,33 @@ def test_what_is_no_scene_is_an_error(tmp_path):
     (tmp_path / "broken.glb").write_bytes(b"glTF\2\0\0\0")
     with pytest.raises(lavalight.Error, match="cannot read"):
         lavalight.load(tmp_path / "broken.glb")
+
+
+def test_names_of_files_need_not_be_utf_8(tmp_path, caplog):
+    folder = tmp_path / os.fsdecode(b"caf\xe9")
+    folder.mkdir()
+    model = folder / os.fsdecode(b"bo\xeete.gltf")
+    shutil.copy(REPOSITORY / "assets/cornell-box.gltf", model)
+    scene = lavalight.load(model)
+    assert scene.name == str(model) and "\\udcee" in ascii(scene)
+    image = scene.render(**SMALL)
+    assert (image.rgb == lavalight.load("cornell-box").render(**SMALL).rgb).all()
+    for name in (b"im\xe9.exr", b"im\xe9.png", b"im\xe9.json"):
+        image.save(folder / os.fsdecode(name))
+        assert (folder / os.fsdecode(name)).stat().st_size > 0
+    assert image.compare(folder / os.fsdecode(b"im\xe9.exr")).equal
+    assert (pickle.loads(pickle.dumps(scene)).render(**SMALL).rgb == image.rgb).all()
+    scene.render(samples=(0, 2), size=(16, 16)).save(folder / os.fsdecode(b"film\xe9.exr"))
+    assert lavalight.merge([folder / os.fsdecode(b"film\xe9.exr")]).width == 16
+    lavalight.load("cornell-box", env=folder / os.fsdecode(b"im\xe9.exr")).render(**SMALL)
+    with pytest.raises(lavalight.Error, match=r"caf\\xe9"):
+        lavalight.load(folder / "none.glb")
+    assert all(record.getMessage().encode() for record in caplog.records)  # UTF-8, whatever they quote
+
+
+def test_half_of_a_surrogate_pair_is_no_name():
+    with pytest.raises(UnicodeEncodeError):
+        lavalight.load("\ud800")
 
 
 def test_a_scene_says_what_it_has(box):

@@ -12,7 +12,7 @@ layout(push_constant) uniform Push { LabRun run; };
 float sampleOnce(SampleKey key);
 
 void main() {
-    const uint invocation = gl_GlobalInvocationID.x;
+    const uint invocation = run.first + gl_GlobalInvocationID.x;
     if (invocation > (run.sampleCount - 1u) / run.samplesEach) // all groups are full, but the last one may have less work
         return;
     const uint count = min(run.samplesEach, run.sampleCount - invocation * run.samplesEach);

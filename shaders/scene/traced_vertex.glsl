@@ -33,5 +33,6 @@ TracedVertex traceVertex(Hit hit, Ray ray, uint slot, uint bounce, inout Path pa
     v.flags |= next.wantsShadowRay ? kTracedShadowRay : 0u;
     v.flags |= next.goesOn ? kTracedGoesOn : 0u;
     v.flags |= next.isCut ? kTracedCut : 0u;
+    v.flags |= isCaught(path) ? kTracedCaught : 0u;
     return v;
 }

@@ -20,7 +20,7 @@ struct LabRun {
     uint kind;        // which estimator: the constants below, by kernel
     uint variant;     // which integrand, where there are several
     uint count;       // strata, rays
-    uint unused;
+    uint first;       // the first invocation of this dispatch, when a run has several
     vec4 a; // what the estimator asks for
     vec4 b;
 };

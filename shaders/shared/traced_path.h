@@ -26,6 +26,7 @@ SHARED_CONST uint kTracedOccluded = 2u;  // and something was in its way
 SHARED_CONST uint kTracedGoesOn = 4u;
 SHARED_CONST uint kTracedCut = 8u; // ended by --max-bounces
 SHARED_CONST uint kTracedFront = 16u; // the front of the triangle was hit
+SHARED_CONST uint kTracedCaught = 32u; // nothing was hit but the ground that catches shadows
 
 LAVALIGHT_SHARED_END
 

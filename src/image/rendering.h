@@ -75,6 +75,11 @@ struct Rendering {
                                         [&](const Layer& layer) { return layer.name == name; });
         return found == layers.end() ? nullptr : &*found;
     }
+    // The mean of the layer of that name, or null.
+    [[nodiscard]] const Image* findMean(std::string_view name) const {
+        const Layer* layer = find(name);
+        return layer == nullptr ? nullptr : &layer->mean;
+    }
 
   private:
     [[nodiscard]] const Layer& color() const {

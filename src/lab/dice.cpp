@@ -33,8 +33,8 @@ EstimatorRow rowOf(const DiceWay& way, const SampleKernel& kernel, const LabOpti
 
 } // namespace
 
-std::vector<Table> runDice(gpu::Device& device, const LabOptions& options) {
-    const SampleKernel kernel(device, "lab/dice");
+std::vector<Table> runDice(const LabDevice& lab, const LabOptions& options) {
+    const SampleKernel kernel(lab, "lab/dice");
     const double best = bestDieProbability();
     const std::array<DiceWay, 5> ways{
         {{"both dice", kDiceTogether, 0.0},

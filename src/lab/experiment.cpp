@@ -55,14 +55,14 @@ const Experiment& findExperiment(std::string_view name) {
         "lab: \"{}\" is not an experiment; there are {} (and list, which describes them)", name, known));
 }
 
-std::vector<Table> runExperiment(const Experiment& experiment, gpu::Device& device, LabOptions options) {
+std::vector<Table> runExperiment(const Experiment& experiment, const LabDevice& lab, LabOptions options) {
     if (options.samples == 0)
         options.samples = experiment.defaultSamples;
     if (options.samples < experiment.leastSamples || options.samples > experiment.mostSamples)
         throw UsageError(fmt::format("--samples: {} counts {}, {} to {} of them, not {}", experiment.name,
                                      experiment.sampleUnit, experiment.leastSamples, experiment.mostSamples,
                                      options.samples));
-    return experiment.run(device, options);
+    return experiment.run(lab, options);
 }
 
 } // namespace lavalight

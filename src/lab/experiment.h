@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "gpu/device.h"
+#include "lab/lab_device.h"
 #include "lab/table.h"
 
 namespace lavalight {
@@ -23,7 +23,7 @@ struct Experiment {
     uint64_t defaultSamples;
     uint64_t leastSamples;
     uint64_t mostSamples;
-    std::vector<Table> (*run)(gpu::Device& device, const LabOptions& options);
+    std::vector<Table> (*run)(const LabDevice& lab, const LabOptions& options);
 };
 
 // All experiments, in the order of the lectures.
@@ -33,19 +33,19 @@ struct Experiment {
 [[nodiscard]] const Experiment& findExperiment(std::string_view name);
 
 // Equal options give equal tables on one device and driver, but for times. `samples` 0 asks for the default.
-// Throws UsageError where `samples` is out of the experiment's range.
-[[nodiscard]] std::vector<Table> runExperiment(const Experiment& experiment, gpu::Device& device,
+// Throws UsageError where `samples` is out of the experiment's range, and what lab.betweenPasses throws.
+[[nodiscard]] std::vector<Table> runExperiment(const Experiment& experiment, const LabDevice& lab,
                                                LabOptions options);
 
 // The experiments themselves, one a file.
-[[nodiscard]] std::vector<Table> runDice(gpu::Device& device, const LabOptions& options);
-[[nodiscard]] std::vector<Table> runStrata(gpu::Device& device, const LabOptions& options);
-[[nodiscard]] std::vector<Table> runHemisphere(gpu::Device& device, const LabOptions& options);
-[[nodiscard]] std::vector<Table> runLights(gpu::Device& device, const LabOptions& options);
-[[nodiscard]] std::vector<Table> runRoulette(gpu::Device& device, const LabOptions& options);
-[[nodiscard]] std::vector<Table> runMis(gpu::Device& device, const LabOptions& options);
-[[nodiscard]] std::vector<Table> runSurvival(gpu::Device& device, const LabOptions& options);
-[[nodiscard]] std::vector<Table> runFresnel(gpu::Device& device, const LabOptions& options);
-[[nodiscard]] std::vector<Table> runSampler(gpu::Device& device, const LabOptions& options);
+[[nodiscard]] std::vector<Table> runDice(const LabDevice& lab, const LabOptions& options);
+[[nodiscard]] std::vector<Table> runStrata(const LabDevice& lab, const LabOptions& options);
+[[nodiscard]] std::vector<Table> runHemisphere(const LabDevice& lab, const LabOptions& options);
+[[nodiscard]] std::vector<Table> runLights(const LabDevice& lab, const LabOptions& options);
+[[nodiscard]] std::vector<Table> runRoulette(const LabDevice& lab, const LabOptions& options);
+[[nodiscard]] std::vector<Table> runMis(const LabDevice& lab, const LabOptions& options);
+[[nodiscard]] std::vector<Table> runSurvival(const LabDevice& lab, const LabOptions& options);
+[[nodiscard]] std::vector<Table> runFresnel(const LabDevice& lab, const LabOptions& options);
+[[nodiscard]] std::vector<Table> runSampler(const LabDevice& lab, const LabOptions& options);
 
 } // namespace lavalight

@@ -21,8 +21,8 @@ EstimatorRow rowOf(const char* name, Fresnel fresnel, double eta, const SampleKe
             {},   1.0,     {}};
 }
 
-Table reflectance(gpu::Device& device, uint32_t seed) {
-    const SampleKernel kernel(device, "lab/fresnel");
+Table reflectance(const LabDevice& lab, uint32_t seed) {
+    const SampleKernel kernel(lab, "lab/fresnel");
     Table table =
         estimatorTable("reflectance", "Mean reflectance of glass (index 1.5) under diffuse light",
                        {rowOf("exact, from outside", Fresnel::exact, kGlass, kernel, seed),
@@ -33,8 +33,8 @@ Table reflectance(gpu::Device& device, uint32_t seed) {
     return table;
 }
 
-Table scene(gpu::Device& device, const LabOptions& options) {
-    RenderBench bench(device, "cornell-glass", kFresnelImageHeight);
+Table scene(const LabDevice& lab, const LabOptions& options) {
+    RenderBench bench(lab, "cornell-glass", kFresnelImageHeight);
     RenderTable rows(bench, static_cast<uint32_t>(options.samples));
     EstimatorSettings estimator = independentSettings(options.seed);
     rows.add("exact", estimator);
@@ -48,8 +48,8 @@ Table scene(gpu::Device& device, const LabOptions& options) {
 
 } // namespace
 
-std::vector<Table> runFresnel(gpu::Device& device, const LabOptions& options) {
-    return {reflectance(device, options.seed), scene(device, options)};
+std::vector<Table> runFresnel(const LabDevice& lab, const LabOptions& options) {
+    return {reflectance(lab, options.seed), scene(lab, options)};
 }
 
 } // namespace lavalight

@@ -30,8 +30,8 @@ Table tableOf(const std::string& name, const std::string& title, uint32_t sky, c
 
 } // namespace
 
-std::vector<Table> runHemisphere(gpu::Device& device, const LabOptions& options) {
-    const SampleKernel kernel(device, "lab/hemisphere");
+std::vector<Table> runHemisphere(const LabDevice& lab, const LabOptions& options) {
+    const SampleKernel kernel(lab, "lab/hemisphere");
     Table constant = tableOf("constant", "Irradiance under a sky of radiance 1 (exact: pi)", kSkyConstant,
                              kernel, options);
     constant.notes = {"The cosine cancels against the pdf: every sample is pi."};

@@ -34,8 +34,8 @@ EstimatorRow rowOf(const Pick& pick, const SampleKernel& kernel, const LabOption
     return estimatorRow(fmt::format("{}, p = {:.3f}", pick.name, pick.large), m, theory);
 }
 
-Table spheres(gpu::Device& device, const LabOptions& options) {
-    const SampleKernel kernel(device, "lab/lights");
+Table spheres(const LabDevice& lab, const LabOptions& options) {
+    const SampleKernel kernel(lab, "lab/lights");
     const double byPower = kLarge.power() / (kLarge.power() + kSmall.power());
     const std::array<Pick, 4> picks{{{"uniform", 0.5},
                                      {"by power", byPower},
@@ -56,8 +56,8 @@ Table spheres(gpu::Device& device, const LabOptions& options) {
     return table;
 }
 
-Table scene(gpu::Device& device, uint32_t seed) {
-    RenderBench bench(device, "large-small-light", 48);
+Table scene(const LabDevice& lab, uint32_t seed) {
+    RenderBench bench(lab, "large-small-light", 48);
     RenderTable rows(bench, 128);
     EstimatorSettings estimator = independentSettings(seed);
     estimator.mis = Mis::off;
@@ -80,8 +80,8 @@ Table scene(gpu::Device& device, uint32_t seed) {
 
 } // namespace
 
-std::vector<Table> runLights(gpu::Device& device, const LabOptions& options) {
-    return {spheres(device, options), scene(device, options.seed)};
+std::vector<Table> runLights(const LabDevice& lab, const LabOptions& options) {
+    return {spheres(lab, options), scene(lab, options.seed)};
 }
 
 } // namespace lavalight

@@ -9,8 +9,8 @@ constexpr uint32_t kMisImageHeight = 48;
 
 } // namespace
 
-std::vector<Table> runMis(gpu::Device& device, const LabOptions& options) {
-    RenderBench bench(device, "veach-mis", kMisImageHeight);
+std::vector<Table> runMis(const LabDevice& lab, const LabOptions& options) {
+    RenderBench bench(lab, "veach-mis", kMisImageHeight);
     RenderTable rows(bench, static_cast<uint32_t>(options.samples));
     EstimatorSettings estimator = independentSettings(options.seed);
     estimator.nextEventEstimation = false;
@@ -32,10 +32,10 @@ std::vector<Table> runMis(gpu::Device& device, const LabOptions& options) {
     return {table};
 }
 
-std::vector<Table> runSurvival(gpu::Device& device, const LabOptions& options) {
+std::vector<Table> runSurvival(const LabDevice& lab, const LabOptions& options) {
     std::vector<Table> tables;
     for (const char* scene : {"cornell-box", "veach-mis"}) {
-        RenderBench bench(device, scene, kMisImageHeight);
+        RenderBench bench(lab, scene, kMisImageHeight);
         RenderTable rows(bench, static_cast<uint32_t>(options.samples));
         EstimatorSettings estimator = independentSettings(options.seed);
         estimator.rouletteStart = 1;

@@ -68,8 +68,8 @@ double RenderRun::efficiency() const {
     return cost > 0.0 ? 1.0 / cost : 0.0;
 }
 
-RenderBench::RenderBench(gpu::Device& device, const std::string& scene, uint32_t height)
-    : session_(planOf(scene), device) {
+RenderBench::RenderBench(const LabDevice& lab, const std::string& scene, uint32_t height)
+    : lab_(lab), session_(planOf(scene), lab.device) {
     image_.height = height;
     EstimatorSettings emissionOnly = independentSettings(0);
     emissionOnly.maxBounces = 0;
@@ -91,6 +91,7 @@ RenderJob RenderBench::render(const RenderSettings& settings, const Look& look) 
     session_.use(settings);
     RenderJob job = session_.prepare({}, {});
     job.takeSamples([&](double fraction) {
+        lab_.look();
         if (look)
             look(fraction, *job.renderer);
         return true;

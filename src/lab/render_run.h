@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "film/film_cost.h"
-#include "gpu/device.h"
+#include "lab/lab_device.h"
 #include "lab/table.h"
 #include "render/settings.h"
 #include "session/render_session.h"
@@ -37,7 +37,7 @@ class RenderBench {
   public:
     // `scene` is a built-in name or a file without environment; `height` in pixels, the width follows from
     // its camera.
-    RenderBench(gpu::Device& device, const std::string& scene, uint32_t height);
+    RenderBench(const LabDevice& lab, const std::string& scene, uint32_t height);
 
     [[nodiscard]] RenderRun measure(const EstimatorSettings& estimator, uint32_t samples);
 
@@ -49,6 +49,7 @@ class RenderBench {
     void finish(RenderJob job) { session_.finish(std::move(job)); }
 
   private:
+    LabDevice lab_;
     RenderSession session_;
     ImageSettings image_;
     std::vector<size_t> measured_; // indices of pixels

@@ -32,8 +32,8 @@ EstimatorRow rowOf(const std::string& name, uint32_t kind, double survival, cons
     return row;
 }
 
-Table rays(gpu::Device& device, uint32_t seed) {
-    const SampleKernel kernel(device, "lab/roulette");
+Table rays(const LabDevice& lab, uint32_t seed) {
+    const SampleKernel kernel(lab, "lab/roulette");
     Table table =
         estimatorTable("rays", "Power of 8 rays of 16 W",
                        {rowOf("all go on", kRouletteMadeUp, 1.0, kernel, seed),
@@ -47,7 +47,7 @@ Table rays(gpu::Device& device, uint32_t seed) {
     return table;
 }
 
-Table box(gpu::Device& device, const LabOptions& options) {
+Table box(const LabDevice& lab, const LabOptions& options) {
     struct Kind {
         const char* name;
         Roulette roulette;
@@ -58,7 +58,7 @@ Table box(gpu::Device& device, const LabOptions& options) {
                                          {"max-albedo", Roulette::maxAlbedo},
                                          {"throughput", Roulette::throughput},
                                          {"sqrt-throughput", Roulette::sqrtThroughput}}};
-    RenderBench bench(device, "cornell-box", kRouletteImageHeight);
+    RenderBench bench(lab, "cornell-box", kRouletteImageHeight);
     RenderTable rows(bench, static_cast<uint32_t>(options.samples));
     EstimatorSettings estimator = independentSettings(options.seed);
     estimator.rouletteStart = 1; // from the first vertex on, as in the lecture
@@ -75,8 +75,8 @@ Table box(gpu::Device& device, const LabOptions& options) {
 
 } // namespace
 
-std::vector<Table> runRoulette(gpu::Device& device, const LabOptions& options) {
-    return {rays(device, options.seed), box(device, options)};
+std::vector<Table> runRoulette(const LabDevice& lab, const LabOptions& options) {
+    return {rays(lab, options.seed), box(lab, options)};
 }
 
 } // namespace lavalight

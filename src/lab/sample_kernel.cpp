@@ -17,7 +17,8 @@ namespace {
 static_assert(sizeof(LabRun) == 64 && offsetof(LabRun, a) == 32 && sizeof(LabMoments) == 12);
 
 constexpr uint32_t kGroupSize = 64;
-constexpr uint32_t kSamplesEach = 256; // samples of an invocation, in a plain estimate
+constexpr uint32_t kGroupsOfPass = 1024; // at most 16 million samples, between which the caller is asked
+constexpr uint32_t kSamplesEach = 256;   // samples of an invocation, in a plain estimate
 // Sequences take fewer: sums of so few floats are good to 1e-7, below the errors of Sobol's points.
 constexpr uint32_t kSequenceSamplesEach = 64;
 
@@ -33,8 +34,8 @@ Moments fromDevice(const LabMoments& m) {
 
 } // namespace
 
-SampleKernel::SampleKernel(gpu::Device& device, std::string_view name, Sampler sampler)
-    : device_(&device), kernel_(makeKernel(device, name, sampler)) {}
+SampleKernel::SampleKernel(const LabDevice& lab, std::string_view name, Sampler sampler)
+    : lab_(lab), kernel_(makeKernel(lab.device, name, sampler)) {}
 
 Moments SampleKernel::estimate(LabRun run, uint64_t samples, std::span<const float> table) const {
     assert(samples > 0 && samples <= kMostLabSamples);
@@ -57,20 +58,24 @@ std::vector<Moments> SampleKernel::streams(LabRun run, uint32_t streams, uint32_
     return result;
 }
 
-std::vector<Moments> SampleKernel::dispatch(const LabRun& run, std::span<const float> table) const {
+std::vector<Moments> SampleKernel::dispatch(LabRun run, std::span<const float> table) const {
     const uint32_t invocations = (run.sampleCount - 1) / run.samplesEach + 1;
-    const gpu::Buffer out(*device_, "lab results", uint64_t{invocations} * sizeof(LabMoments),
+    const gpu::Buffer out(lab_.device, "lab results", uint64_t{invocations} * sizeof(LabMoments),
                           gpu::BufferUse::storage);
-    gpu::Buffer input(*device_, "lab table", table.size_bytes(), gpu::BufferUse::storage);
+    gpu::Buffer input(lab_.device, "lab table", table.size_bytes(), gpu::BufferUse::storage);
     input.upload(table);
     gpu::ResourceTable resources;
     resources.set("LabOut", out);
     resources.set("LabTable", input);
-    const gpu::BoundKernel bound(*device_, kernel_, resources);
-    gpu::Commands commands(*device_);
-    commands.begin();
-    commands.dispatch(bound, (invocations - 1) / kGroupSize + 1, std::as_bytes(std::span(&run, 1)));
-    commands.submitAndWait();
+    const gpu::BoundKernel bound(lab_.device, kernel_, resources);
+    gpu::Commands commands(lab_.device);
+    for (run.first = 0; run.first < invocations; run.first += kGroupSize * kGroupsOfPass) {
+        lab_.look();
+        const uint32_t groups = (invocations - run.first - 1) / kGroupSize + 1;
+        commands.begin();
+        commands.dispatch(bound, std::min(groups, kGroupsOfPass), std::as_bytes(std::span(&run, 1)));
+        commands.submitAndWait();
+    }
     const std::vector<LabMoments> parts = out.downloadAll<LabMoments>();
     std::vector<Moments> result(parts.size());
     std::transform(parts.begin(), parts.end(), result.begin(), fromDevice);

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "gpu/device.h"
 #include "gpu/kernel.h"
+#include "lab/lab_device.h"
 #include "lab/moments.h"
 #include "render/settings.h"
 #include "shared/lab.h"
@@ -19,8 +19,8 @@ constexpr uint64_t kMostLabSamples = uint64_t{1} << 29;
 
 class SampleKernel {
   public:
-    // `name` is a kernel that includes scene/lab_estimator.glsl. The device must outlive this.
-    SampleKernel(gpu::Device& device, std::string_view name, Sampler sampler = Sampler::independent);
+    // `name` is a kernel that includes scene/lab_estimator.glsl. What `lab` refers to must outlive this.
+    SampleKernel(const LabDevice& lab, std::string_view name, Sampler sampler = Sampler::independent);
 
     // Moments of `samples` (1 to kMostLabSamples) independent samples. run.seed, kind, variant, count, a and
     // b say what is sampled; the rest is filled in. `table` is for kernels that read one.
@@ -30,9 +30,9 @@ class SampleKernel {
     [[nodiscard]] std::vector<Moments> streams(LabRun run, uint32_t streams, uint32_t samplesPerStream) const;
 
   private:
-    [[nodiscard]] std::vector<Moments> dispatch(const LabRun& run, std::span<const float> table) const;
+    [[nodiscard]] std::vector<Moments> dispatch(LabRun run, std::span<const float> table) const;
 
-    gpu::Device* device_;
+    LabDevice lab_;
     gpu::Kernel kernel_;
 };
 

@@ -130,8 +130,8 @@ void addImages(Convergence& result, size_t sampler, const std::vector<std::vecto
     result.errors[sampler].push_back(std::sqrt(squares / count));
 }
 
-Convergence renderBox(gpu::Device& device, uint32_t seed) {
-    RenderBench bench(device, "cornell-box", kSamplerImageHeight);
+Convergence renderBox(const LabDevice& lab, uint32_t seed) {
+    RenderBench bench(lab, "cornell-box", kSamplerImageHeight);
     Convergence result;
     for (uint32_t samples = kImageStep; samples <= kImageSamples; samples *= 4)
         result.samples.push_back(samples);
@@ -151,9 +151,9 @@ Convergence renderBox(gpu::Device& device, uint32_t seed) {
 
 } // namespace
 
-std::vector<Table> runSampler(gpu::Device& device, const LabOptions& options) {
-    const std::array<SampleKernel, 2> kernels{SampleKernel(device, "lab/sampler", kSamplers[0]),
-                                              SampleKernel(device, "lab/sampler", kSamplers[1])};
+std::vector<Table> runSampler(const LabDevice& lab, const LabOptions& options) {
+    const std::array<SampleKernel, 2> kernels{SampleKernel(lab, "lab/sampler", kSamplers[0]),
+                                              SampleKernel(lab, "lab/sampler", kSamplers[1])};
     std::vector<Table> tables;
     Table fits{"slopes",
                "Slope of log(RMSE) against log(samples)",
@@ -169,7 +169,7 @@ std::vector<Table> runSampler(gpu::Device& device, const LabOptions& options) {
                              c, integrand.exact));
         fits.rows.push_back(slopes(integrand.name, c));
     }
-    const Convergence box = renderBox(device, options.seed);
+    const Convergence box = renderBox(lab, options.seed);
     tables.push_back(
         convergenceTable("cornell-box",
                          fmt::format("The Cornell box, {0}x{0} pixels; RMSE by the differences of {1} seeds",

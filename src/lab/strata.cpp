@@ -40,8 +40,8 @@ std::vector<float> backwardsPmf(uint32_t count) {
 
 class StrataRows {
   public:
-    StrataRows(gpu::Device& device, const LabOptions& options)
-        : kernel_(device, "lab/strata"), seed_(options.seed), evaluations_(options.samples) {}
+    StrataRows(const LabDevice& lab, const LabOptions& options)
+        : kernel_(lab, "lab/strata"), seed_(options.seed), evaluations_(options.samples) {}
 
     void addPicked(const std::string& name, const std::vector<float>& pmf) {
         const auto count = static_cast<uint32_t>(pmf.size());
@@ -81,8 +81,8 @@ class StrataRows {
 
 } // namespace
 
-std::vector<Table> runStrata(gpu::Device& device, const LabOptions& options) {
-    StrataRows rows(device, options);
+std::vector<Table> runStrata(const LabDevice& lab, const LabOptions& options) {
+    StrataRows rows(lab, options);
     rows.addPicked("1 stratum", uniformPmf(1));
     for (const uint32_t count : {8u, 64u})
         rows.addPicked(fmt::format("{} strata, uniform", count), uniformPmf(count));

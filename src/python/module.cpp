@@ -1,11 +1,11 @@
 // The extension module lavalight._lavalight. The package in python/lavalight is its face: keywords,
 // notebooks, types.
-#include <cstring>
 #include <memory>
+#include <string>
+#include <string_view>
 
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/pair.h>
-#include <nanobind/stl/string.h>
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 #include <nlohmann/json.hpp>
@@ -29,6 +29,8 @@
 #include "python/python_render.h"
 #include "python/python_scene.h"
 #include "python/session_pool.h"
+#include "python/text.h"
+#include "python/watch.h"
 #include "render/presets.h"
 #include "session/builtin.h"
 
@@ -37,6 +39,12 @@ namespace lavalight::python {
 namespace nb = nanobind;
 
 namespace {
+
+// Text for people. Messages quote files, whose names need not be UTF-8.
+nb::object readable(std::string_view text) {
+    return nb::steal(
+        PyUnicode_DecodeUTF8(text.data(), static_cast<Py_ssize_t>(text.size()), "backslashreplace"));
+}
 
 // Messages go to Python's logger "lavalight", whichever thread says them. Python's lock is the sink's.
 class PythonLog : public spdlog::sinks::base_sink<spdlog::details::null_mutex> {
@@ -50,7 +58,7 @@ class PythonLog : public spdlog::sinks::base_sink<spdlog::details::null_mutex> {
                                                                     : "info";
         try {
             const nb::object logger = nb::module_::import_("logging").attr("getLogger")("lavalight");
-            logger.attr(method)("%s", std::string(message.payload.data(), message.payload.size()));
+            logger.attr(method)("%s", readable({message.payload.data(), message.payload.size()}));
         } catch (nb::python_error& error) {
             error.discard_as_unraisable("lavalight's log");
         }
@@ -74,12 +82,34 @@ std::string devicesJson() {
     return json.dump();
 }
 
+// Thrown through an experiment to end it.
+struct Interruption {};
+
+std::vector<Table> runLab(const std::string& name, const LabOptions& options) {
+    beginDeviceUse();
+    Watch watch(0.0, nb::none());
+    std::vector<Table> tables;
+    {
+        const nb::gil_scoped_release release;
+        const Experiment& experiment = findExperiment(name);
+        gpu::Device device({});
+        const LabDevice lab{device, [&] {
+                                if (!watch.goesOn(0.0))
+                                    throw Interruption();
+                            }};
+        try {
+            tables = runExperiment(experiment, lab, options);
+        } catch (const Interruption&) {
+            tables.clear();
+        }
+    }
+    watch.rethrow();
+    return tables;
+}
+
 std::string labJson(const std::string& name, uint64_t samples, uint32_t seed) {
-    const nb::gil_scoped_release release;
-    const Experiment& experiment = findExperiment(name);
-    gpu::Device device({});
     nlohmann::ordered_json json = nlohmann::ordered_json::array();
-    for (const Table& table : runExperiment(experiment, device, {samples, seed})) {
+    for (const Table& table : runLab(name, {samples, seed})) {
         nlohmann::ordered_json one = tableJson(table);
         one["text"] = tableText(table);
         json.push_back(std::move(one));
@@ -136,11 +166,8 @@ int runCommand(std::vector<std::string> words) {
     return runCommandLine(static_cast<int>(arguments.size()), arguments.data());
 }
 
-// Messages quote files, whose names need not be UTF-8.
 void raise(PyObject* kind, const char* message) {
-    const nb::object text = nb::steal(
-        PyUnicode_DecodeUTF8(message, static_cast<Py_ssize_t>(std::strlen(message)), "backslashreplace"));
-    if (text.is_valid())
+    if (const nb::object text = readable(message); text.is_valid())
         PyErr_SetObject(kind, text.ptr());
 }
 

@@ -7,12 +7,12 @@
 
 #include <fmt/format.h>
 #include <nanobind/stl/pair.h>
-#include <nanobind/stl/string.h>
 #include <nanobind/stl/unique_ptr.h>
 #include <nanobind/stl/vector.h>
 
 #include "cli/options/picture_words.h"
 #include "film/film_bytes.h"
+#include "python/text.h"
 #include "session/developed_film.h"
 
 namespace lavalight::python {

@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 #include <nanobind/ndarray.h>
 #include <nanobind/stl/optional.h>
-#include <nanobind/stl/string.h>
 #include <nanobind/stl/unique_ptr.h>
 #include <nanobind/stl/vector.h>
 #include <nlohmann/json.hpp>
@@ -21,6 +20,7 @@
 #include "film/film_bytes.h"
 #include "image/png.h"
 #include "python/pixel_maker.h"
+#include "python/text.h"
 
 namespace lavalight::python {
 

@@ -1,10 +1,8 @@
 #include "python/python_render.h"
 
-#include <chrono>
 #include <optional>
 #include <utility>
 
-#include <nanobind/stl/string.h>
 #include <nanobind/stl/unique_ptr.h>
 #include <nanobind/stl/vector.h>
 
@@ -13,6 +11,8 @@
 #include "film/film_bytes.h"
 #include "python/device_use.h"
 #include "python/session_pool.h"
+#include "python/text.h"
+#include "python/watch.h"
 #include "session/report.h"
 
 namespace lavalight::python {
@@ -20,52 +20,6 @@ namespace lavalight::python {
 namespace nb = nanobind;
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-constexpr std::chrono::milliseconds kAskEvery{50}; // how often Python is asked for signals
-
-// Asked between waves, without Python's lock: whether to go on.
-class Watch {
-  public:
-    Watch(double seconds, nb::handle progress) : seconds_(seconds), progress_(progress) {}
-
-    bool goesOn(double fraction) {
-        const auto now = Clock::now();
-        if (now - asked_ >= kAskEvery) {
-            asked_ = now;
-            if (!ask(fraction))
-                return false;
-        }
-        return seconds_ <= 0.0 || std::chrono::duration<double>(now - start_).count() < seconds_;
-    }
-    [[nodiscard]] bool hasRaised() const { return raised_.has_value(); }
-    // Throws what Python raised. With Python's lock.
-    void rethrow() {
-        if (raised_)
-            throw std::move(*raised_);
-    }
-
-  private:
-    bool ask(double fraction) {
-        const nb::gil_scoped_acquire lock;
-        try {
-            if (PyErr_CheckSignals() != 0)
-                throw nb::python_error();
-            if (!progress_.is_none())
-                progress_(fraction);
-        } catch (nb::python_error& error) {
-            raised_.emplace(std::move(error));
-            return false;
-        }
-        return true;
-    }
-
-    double seconds_;
-    nb::handle progress_;
-    Clock::time_point start_ = Clock::now();
-    Clock::time_point asked_ = start_;
-    std::optional<nb::python_error> raised_;
-};
 
 // A scene as it was when a render of it began: Python may change it meanwhile.
 struct SceneView {

@@ -8,13 +8,13 @@
 #include <nanobind/stl/array.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
-#include <nanobind/stl/string.h>
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
 #include "base/error.h"
 #include "cli/options/picture_words.h"
 #include "gltf/import.h"
+#include "python/text.h"
 #include "scene/world_position.h"
 #include "session/camera_choice.h"
 #include "session/lit_scene.h"

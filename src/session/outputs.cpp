@@ -50,12 +50,6 @@ void addPartsOfStages(RenderReport& report, const RenderJob& job) {
         report.stages.emplace_back("processToFirstSamples", *job.toFirstSamples);
 }
 
-// The layer of that name, or null.
-const Image* meanOf(const Rendering& rendering, const char* name) {
-    const Layer* layer = rendering.find(name);
-    return layer != nullptr ? &layer->mean : nullptr;
-}
-
 // What comes into being.
 std::vector<std::filesystem::path> filesOf(const Outputs& outputs) {
     std::vector<std::filesystem::path> files;
@@ -127,8 +121,8 @@ std::vector<uint32_t> denoisedPixels(const Rendering& rendering, ToneMapper& ton
                                      const ToneSettings& tone) {
     const Layer* denoised = rendering.find(kDenoisedLayer);
     assert(denoised != nullptr);
-    return toneMapper.map(denoised->mean, meanOf(rendering, kDenoisedCoverage), tone,
-                          meanOf(rendering, kDenoisedShadow));
+    return toneMapper.map(denoised->mean, rendering.findMean(kDenoisedCoverage), tone,
+                          rendering.findMean(kDenoisedShadow));
 }
 
 FinishedImage finishImage(RenderJob& job, OutputStyle& style, ToneMapper* toneMapper) {

@@ -128,10 +128,12 @@ LiveDenoiser::Denoise makeLibraryDenoise() {
         Rendering& rendering = order.rendering;
         if (!denoise(rendering, *denoiser, order.quality, 0, order.isSharp, keepGoing))
             return std::nullopt;
-        DenoisedPicture picture{rendering.find(kDenoisedLayer)->mean, std::nullopt, order.samples};
-        if (const Layer* coverage = rendering.find(kDenoisedCoverage))
-            picture.coverage = coverage->mean;
-        return picture;
+        const auto copyOf = [](const Image* image) {
+            return image == nullptr ? std::nullopt : std::optional(*image);
+        };
+        return DenoisedPicture{*rendering.findMean(kDenoisedLayer),
+                               copyOf(rendering.findMean(kDenoisedCoverage)),
+                               copyOf(rendering.findMean(kDenoisedShadow)), order.samples};
     };
 }
 

@@ -28,6 +28,7 @@ struct DenoiseOrder {
 struct DenoisedPicture {
     Image color;
     std::optional<Image> coverage; // that it is associated with
+    std::optional<Image> shadow;   // the part of it that is shadow
     uint32_t samples = 0;
 };
 

@@ -24,6 +24,9 @@ constexpr uint32_t kFewestSlots = 4096;
 // Samples a pixel before which the logarithms of noise say too little of an image's brightness.
 constexpr uint32_t kFewestToExpose = 4;
 
+// What alpha is made of, of which a film may have none.
+constexpr uint32_t kAlphaLayers = 1u << kCoveragePlane | 1u << kShadowPlane | 1u << kBehindPlane;
+
 // Samples after which nothing is denoised any more.
 constexpr uint32_t kNever = 0xffffffffu;
 
@@ -153,8 +156,8 @@ LiveView LiveSide::view(const ShownLayer& shown, float exposure) {
 std::vector<uint32_t> LiveSide::pixelsOf(const ShownLayer& shown, const ToneSettings& tone) {
     const Film& film = renderer_->film();
     if (shown.isDenoised && denoised_)
-        return toneMapper_->map(denoised_->color, denoised_->coverage ? &*denoised_->coverage : nullptr,
-                                tone);
+        return toneMapper_->map(denoised_->color, denoised_->coverage ? &*denoised_->coverage : nullptr, tone,
+                                denoised_->shadow ? &*denoised_->shadow : nullptr);
     if (shown.row == kColorPlane || !film.layout().find(shown.row))
         return toneMapper_->map(film, tone);
     return displayOf(film.resolve(1u << shown.row | 1u << kHitsPlane), shown.row, std::exp2(tone.exposure));
@@ -165,7 +168,7 @@ float LiveSide::imageExposure() {
     const bool isDue =
         renderer_->isDone() ? samples != exposedAt_ : samples >= std::max(kFewestToExpose, 2 * exposedAt_);
     if (!exposure_ || isDue) {
-        exposure_ = autoExposure(renderer_->film().resolve(1u << kColorPlane | 1u << kCoveragePlane));
+        exposure_ = autoExposure(renderer_->film().resolve(1u << kColorPlane | kAlphaLayers));
         exposedAt_ = samples;
     }
     return *exposure_;
@@ -181,7 +184,7 @@ bool LiveSide::wantsDenoising() const {
 DenoiseOrder LiveSide::orderDenoising() {
     const uint32_t samples = renderer_->position().samplesDone;
     nextDenoisedAt_ = renderer_->isDone() ? kNever : 2 * samples;
-    const uint32_t rows = kDenoisingLayers | 1u << kColorPlane | 1u << kCoveragePlane;
+    const uint32_t rows = kDenoisingLayers | 1u << kColorPlane | kAlphaLayers;
     return {renderer_->film().resolve(rows), samples, renderer_->frame().lensRadius == 0.0f,
             request_->quality};
 }

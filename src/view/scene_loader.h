@@ -14,11 +14,13 @@
 
 namespace lavalight {
 
-// Which scene, which moment of it, under which light.
+// Which scene, which moment of it, under which light, above which ground.
 struct SceneOrder {
     std::string source;
     ImportOptions import;
     LightingSettings lighting;
+    GroundSettings ground;
+    std::optional<double> groundHeight; // in the world; none: right below the scene
 };
 
 class SceneLoader {

@@ -1,6 +1,7 @@
 #include "view/scene_panel.h"
 
 #include <algorithm>
+#include <array>
 
 #include "base/named.h"
 #include "view/light_choice.h"
@@ -8,6 +9,16 @@
 
 namespace lavalight {
 namespace {
+
+// sRGB signals from 0 to 1 of 0xrrggbb, and back.
+glm::vec3 signalsOf(uint32_t color) {
+    return glm::vec3(color >> 16, color >> 8 & 0xffu, color & 0xffu) / 255.0f;
+}
+
+uint32_t hexOf(const glm::vec3& signals) {
+    const glm::uvec3 bytes(glm::round(255.0f * glm::clamp(signals, 0.0f, 1.0f)));
+    return bytes.x << 16 | bytes.y << 8 | bytes.z;
+}
 
 // True where the scene has to be read again: what is far from its origin is too coarse to be looked at from
 // near by.
@@ -107,6 +118,26 @@ bool drawEnvironment(ViewState& view) {
     return isOther;
 }
 
+// The colour of a new ground.
+constexpr uint32_t kGroundColor = 0x808080;
+
+bool drawGround(ViewState& view) {
+    static constexpr std::array<SettingName<Ground>, 3> kNames{
+        {{"nothing", Ground::none}, {"a matt surface", Ground::lambert}, {"a shadow", Ground::shadow}}};
+    const GroundSettings before = view.ground;
+    if (chooseAmong<Ground>(
+            "ground", kNames, view.ground.kind,
+            "What lies right below the scene: nothing, a matt surface, or a plane that catches "
+            "shadows and shows the background"))
+        view.ground.color = view.ground.kind == Ground::lambert ? kGroundColor : 0;
+    if (view.ground.kind == Ground::lambert) {
+        glm::vec3 color = signalsOf(view.ground.color);
+        ImGui::ColorEdit3("##ground", &color.x, ImGuiColorEditFlags_DisplayHex);
+        view.ground.color = hexOf(color);
+    }
+    return view.ground != before;
+}
+
 bool drawVariants(ViewState& view) {
     if (view.scene->variants.empty())
         return false;
@@ -148,8 +179,9 @@ bool drawScene(ViewState& view) {
     const bool isElsewhere = drawCameras(view);
     drawLens(view);
     const bool hasLight = drawEnvironment(view);
+    const bool hasGround = drawGround(view);
     const bool hasVariant = drawVariants(view);
-    return drawMoment(view) || hasVariant || hasLight || isElsewhere;
+    return drawMoment(view) || hasVariant || hasGround || hasLight || isElsewhere;
 }
 
 } // namespace lavalight

@@ -38,6 +38,7 @@ struct ViewState {
     uint32_t asked = 0;           // layers that were looked at: bit i for row i of FILM_PLANES
     bool exposesByImage = false;  // the image settles the exposure
     LightingSettings light{};     // light that is asked for; settings.lighting has that of `scene`
+    GroundSettings ground{};      // ground that is asked for; settings.ground has that of `scene`
     std::string map{};            // environment map that was used last; empty: none
     glm::vec3 backdrop{1.0f};     // sRGB colour that is offered to stand behind the scene
 };

@@ -49,7 +49,9 @@ std::string freeName(const std::string& source) {
 }
 
 Scene loadOrder(const SceneOrder& order) {
-    return loadLitScene(order.source, order.import, order.lighting);
+    Scene scene = loadLitScene(order.source, order.import, order.lighting);
+    layGround(order.ground, order.groundHeight.value_or(groundHeightOf(scene)), scene);
+    return scene;
 }
 
 } // namespace
@@ -60,6 +62,7 @@ Viewer::Viewer(ViewerConfig config)
       shaders_(std::move(config.shaders)) {
     view_.settings = resolveSchedule(view_.settings, render_.device());
     view_.light = view_.settings.lighting;
+    view_.ground = view_.settings.ground;
     if (!config.watched.empty())
         watcher_.emplace(config.watched, shaders_, decisiveKernels(view_.settings), &Window::wake);
     view_.canBeHosted = render_.device().sharesMemory;
@@ -149,6 +152,7 @@ void Viewer::receiveScene() {
     if (!outcome->scene) {
         tell(outcome->error, true);
         view_.light = view_.settings.lighting;
+        view_.ground = view_.settings.ground;
         return;
     }
     for (const std::string& warning : outcome->scene->warnings)
@@ -158,6 +162,7 @@ void Viewer::receiveScene() {
     view_.source = outcome->order.source;
     view_.import = outcome->order.import;
     takeLight(outcome->order.lighting, view_.settings.lighting);
+    view_.settings.ground = outcome->order.ground;
     if (!view_.scene->environmentMap)
         view_.settings.lighting.rotation = 0.0f;
     if (isOther) {
@@ -237,13 +242,16 @@ void Viewer::takeDrops() {
             view_.light.mapFile = path;
             reload();
         } else {
-            loader_.order({path, {.allowsExternal = view_.import.allowsExternal}, view_.light});
+            loader_.order(
+                {path, {.allowsExternal = view_.import.allowsExternal}, view_.light, view_.ground, {}});
         }
     }
 }
 
+// All moments of a scene stand on one ground.
 void Viewer::reload() {
-    loader_.order({view_.source, view_.import, view_.light});
+    const double height = view_.scene->origin.y + double{view_.scene->groundHeight};
+    loader_.order({view_.source, view_.import, view_.light, view_.ground, height});
 }
 
 void Viewer::save() {

@@ -83,6 +83,23 @@ TEST_F(Trace, EveryVertexSaysHowThePathWentOn) {
               "cut by --max-bounces");
 }
 
+TEST_F(Trace, PathsMeetTheGroundThatRenderLays) {
+    const std::vector<std::string> settings{"furnace", "--size",    "8x8",  "--look-from",
+                                            "0,4,8",   "--look-at", "0,0,0"};
+    const auto below = [&](const std::string& ground) { // the lowest pixel, which looks down
+        std::vector<std::string> words = settings;
+        words.insert(words.end(), {"--ground", ground, "--pixel", "4,7"});
+        return trace(words).at("vertices").at(0);
+    };
+    EXPECT_EQ(below("none").at("fate"), "left the scene");
+    const json caught = below("shadow");
+    EXPECT_EQ(caught.at("fate"), "caught by the ground");
+    EXPECT_TRUE(caught.contains("light"));
+    const json lambert = below("#808080");
+    EXPECT_EQ(lambert.at("fate"), "goes on");
+    EXPECT_LT(lambert.at("position").at(1), -0.99);
+}
+
 TEST_F(Trace, RouletteIsToldWithItsProbability) {
     uint32_t killed = 0;
     uint32_t survived = 0;

@@ -81,6 +81,11 @@ INSTANTIATE_TEST_SUITE_P(Options, PicturesWith,
                          testing::Values(std::vector<std::string>{"--exposure", "auto"},
                                          std::vector<std::string>{"--background", "#3080ff"},
                                          std::vector<std::string>{"--background", "0.1,0.2,0.4"},
+                                         std::vector<std::string>{"--ground", "#c02020", "--view",
+                                                                  "three-quarter", "--env", "studio"},
+                                         std::vector<std::string>{"--ground", "shadow", "--background",
+                                                                  "#ffffff", "--view", "three-quarter",
+                                                                  "--env", "studio"},
                                          std::vector<std::string>{"--env", "sky", "--sun-elevation", "20"}));
 
 TEST_F(Pictures, NothingBehindTheSceneIsAChequeredGround) {
@@ -125,6 +130,14 @@ TEST_F(DenoisedPictures, AreThoseOfRenderAndTheColourComesBack) {
     EXPECT_NE(saved.find("denoised"), nullptr);
     EXPECT_EQ(saved.find("guide-albedo"), nullptr);
     EXPECT_EQ(readPng(folder_ / "cornell-box-1.png"), denoised);
+    quit();
+}
+
+TEST_F(DenoisedPictures, HaveTheShadowOnTheGround) {
+    const std::vector<std::string> words{"cornell-box", "--ground",      "shadow", "--background", "#ffffff",
+                                         "--view",      "three-quarter", "--env",  "studio"};
+    open(with(words, {"--denoise"}));
+    expectShown(rendered(with(words, {"--denoise=fast"})));
     quit();
 }
 

@@ -98,14 +98,28 @@ TEST_F(View, OpensWhatIsDroppedAndKeepsTheSceneWhereThatIsBroken) {
     quit();
 }
 
-TEST_F(View, IsLitByAMapThatIsDropped) {
-    // Two texels of RGBE: a blue and a brighter, yellow one.
-    std::ofstream(folder_ / "sky.hdr", std::ios::binary)
+// A map of two texels of RGBE: a blue and a brighter, yellow one.
+std::string writtenSky(const TemporaryFolder& folder) {
+    std::ofstream(folder / "sky.hdr", std::ios::binary)
         << "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n\x20\x20\xc0\x80\xc0\xc0\x20\x82";
-    const std::string sky = (folder_ / "sky.hdr").string();
+    return (folder / "sky.hdr").string();
+}
+
+TEST_F(View, IsLitByAMapThatIsDropped) {
+    const std::string sky = writtenSky(folder_);
     open({"cornell-box"});
     const Screenshot lit = rendered({"cornell-box", "--env", sky});
     ASSERT_TRUE(lit != rendered({"cornell-box"}));
+    desktop_.drop(sky, window_);
+    expectShown(lit);
+    quit();
+}
+
+TEST_F(View, GroundStaysUnderAnotherLight) {
+    const std::string sky = writtenSky(folder_);
+    const std::vector<std::string> words{"cornell-box", "--ground", "#c02020", "--view", "three-quarter"};
+    open(words);
+    const Screenshot lit = rendered(with(words, {"--env", sky}));
     desktop_.drop(sky, window_);
     expectShown(lit);
     quit();

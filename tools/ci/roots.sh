@@ -1,4 +1,4 @@
-# Roots of Debian by debootstrap, for scripts that source this file after setting `source` and `say`. Only root may make them.
+# Roots of Debian and Ubuntu by debootstrap, for scripts that source this file after setting `source` and `say`. Only root may make them.
 # Kept in /var/cache/lavalight, and made anew where one is not there. Exits with 77 where there are no means.
 
 # need_root WHAT: only root may do it; the script then starts anew in a namespace whose mounts go with it, however it ends.
@@ -9,9 +9,27 @@ need_root() {
     fi
 }
 
-# make_root SUITE FOLDER: a minimal Debian with certificates, whole or absent.
+# The keys that sign Ubuntu's archive, which Debian has no package of: from Ubuntu's, by its hash.
+fetch_ubuntu_keys() {
+    local keys="$1" mirror="$2" work
+    [ ! -s "$keys" ] || return 0
+    work="$(mktemp -d)"
+    python3 - "$mirror/pool/main/u/ubuntu-keyring/ubuntu-keyring_2023.11.28.1_all.deb" "$work/keyring.deb" <<'PYTHON'
+import hashlib, pathlib, sys, urllib.request
+package = urllib.request.urlopen(sys.argv[1], timeout=60).read()
+if hashlib.sha256(package).hexdigest() != "36de43b15853ccae0028e9a767613770c704833f82586f28eb262f0311adb8a8":
+    sys.exit(f"cannot trust {sys.argv[1]}: its hash is another one")
+pathlib.Path(sys.argv[2]).write_bytes(package)
+PYTHON
+    dpkg-deb --extract "$work/keyring.deb" "$work/files"
+    mkdir -p "$(dirname "$keys")"
+    cp "$work/files/usr/share/keyrings/ubuntu-archive-keyring.gpg" "$keys"
+    rm -rf "$work"
+}
+
+# make_root SUITE FOLDER: a minimal Debian or Ubuntu with certificates, whole or absent.
 make_root() {
-    local suite="$1" root="$2"
+    local suite="$1" root="$2" options=() mirror="${LAVALIGHT_MIRROR:-http://deb.debian.org/debian}" script=()
     [ ! -e "$root/etc/debian_version" ] || return 0
     if ! command -v debootstrap >/dev/null && ! "$source/tools/setup" debootstrap; then
         say "cannot make a root of $suite: debootstrap is not installed"
@@ -20,8 +38,15 @@ make_root() {
     say "installing $suite into $root"
     rm -rf "$root.part"
     mkdir -p "$root.part"
-    debootstrap --variant=minbase --include=ca-certificates "$suite" "$root.part" \
-        "${LAVALIGHT_MIRROR:-http://deb.debian.org/debian}" >&2
+    case "$suite" in
+    jammy | noble | plucky | questing | resolute) # Ubuntu's, of which an older debootstrap knows that all are alike
+        mirror="${LAVALIGHT_UBUNTU_MIRROR:-http://archive.ubuntu.com/ubuntu}"
+        fetch_ubuntu_keys "$(dirname "$root")/ubuntu-archive-keyring.gpg" "$mirror"
+        options=(--components=main,universe "--keyring=$(dirname "$root")/ubuntu-archive-keyring.gpg")
+        script=(/usr/share/debootstrap/scripts/gutsy)
+        ;;
+    esac
+    debootstrap --variant=minbase --include=ca-certificates "${options[@]}" "$suite" "$root.part" "$mirror" "${script[@]}" >&2
     mv "$root.part" "$root"
 }
 

@@ -31,7 +31,7 @@ int LabCommand::run() {
     }
     const Experiment& experiment = findExperiment(experiment_);
     gpu::Device device(deviceOptions_->config());
-    const std::vector<Table> tables = runExperiment(experiment, device, options_);
+    const std::vector<Table> tables = runExperiment(experiment, {device}, options_);
     device.requireNoValidationMessages();
     print(experiment, device, tables);
     return 0;

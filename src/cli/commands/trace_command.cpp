@@ -47,7 +47,7 @@ Json vertexJson(const TracedVertex& vertex, uint32_t number, const Scene& scene)
 
 TraceCommand::TraceCommand(CLI::App& app)
     : Command(app, "trace", "Show one path of a render, vertex by vertex, as JSON"), options_(parser()),
-      sceneOptions_(parser()), shaders_(parser()) {
+      sceneOptions_(parser()), ground_(parser()), shaders_(parser()) {
     parser().add_option("input", scene_, "Built-in scene, or .gltf or .glb file")->type_name("SCENE");
     parser()
         .add_option("--pixel", pixel_, "Column and row of the image, from its top left")
@@ -67,7 +67,8 @@ glm::uvec2 TraceCommand::pixelIn(const RenderSettings& settings) const {
 }
 
 int TraceCommand::run() {
-    const RenderPlan plan = options_.plan(scene_);
+    RenderPlan plan = options_.plan(scene_);
+    plan.settings.ground = ground_.settings();
     const PreparedScene prepared = prepareScene(plan, sceneOptions_.importOptions());
     const glm::uvec2 pixel = pixelIn(prepared.settings);
     const KernelSource source = sourceOf(shaders_.overlay());
@@ -85,7 +86,7 @@ int TraceCommand::run() {
     for (size_t i = 0; i < path.vertices.size(); ++i)
         json["vertices"].push_back(
             vertexJson(path.vertices[i], static_cast<uint32_t>(i + 1), prepared.scene));
-    fmt::print("{}\n", json.dump(2));
+    fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
     return 0;
 }
 

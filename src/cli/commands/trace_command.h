@@ -4,6 +4,7 @@
 #include <string>
 
 #include "cli/command.h"
+#include "cli/options/ground_options.h"
 #include "cli/options/render_options.h"
 #include "cli/options/scene_options.h"
 #include "cli/options/shader_options.h"
@@ -20,6 +21,7 @@ class TraceCommand : public Command {
 
     RenderOptions options_;
     SceneOptions sceneOptions_;
+    GroundOptions ground_;
     ShaderOptions shaders_;
     std::string scene_ = "cornell-box";
     std::string pixel_;

@@ -23,6 +23,7 @@ RenderPlan ViewCommand::plan() {
     RenderPlan plan = options_.plan(scene_);
     RenderSettings& settings = plan.settings;
     settings.background = background_.settings();
+    settings.ground = ground_.settings();
     if (settings.stop.seconds > 0.0 || settings.stop.targetError > 0.0)
         throw UsageError("--time and --target-error: a window renders until it is closed, or to --spp");
     if (parser().count("--spp") == 0)

@@ -6,6 +6,7 @@
 #include "cli/command.h"
 #include "cli/options/background_options.h"
 #include "cli/options/denoise_options.h"
+#include "cli/options/ground_options.h"
 #include "cli/options/render_options.h"
 #include "cli/options/scene_options.h"
 #include "cli/options/shader_options.h"
@@ -26,6 +27,7 @@ class ViewCommand : public Command {
     ShaderOptions shaders_;
     ToneOptions tone_;
     BackgroundOptions background_;
+    GroundOptions ground_;
     DenoiseOptions denoise_;
     std::string scene_ = "cornell-box";
     bool isNotWatching_ = false;

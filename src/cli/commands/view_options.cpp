@@ -5,7 +5,7 @@ namespace lavalight {
 
 ViewCommand::ViewCommand(CLI::App& app)
     : Command(app, "view", "Show a scene in a window while it is rendered"), options_(parser()),
-      sceneOptions_(parser()), shaders_(parser()), tone_(parser()), background_(parser()),
+      sceneOptions_(parser()), shaders_(parser()), tone_(parser()), background_(parser()), ground_(parser()),
       denoise_(parser(),
                {"Show the picture denoised, by Intel Open Image Denoise; N goes back. Without a word: fast",
                 DenoiseQuality::fast}) {

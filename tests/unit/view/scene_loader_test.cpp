@@ -33,14 +33,14 @@ TEST(SceneLoader, BringsASceneOrWhatIsWrongWithIt) {
         [&] { ++calls; });
     EXPECT_FALSE(loader.isBusy());
     EXPECT_FALSE(loader.take());
-    loader.order({"whole", {}, {}});
+    loader.order({"whole", {}, {}, {}, {}});
     EXPECT_TRUE(loader.isBusy());
     const SceneLoader::Outcome whole = wait(loader);
     ASSERT_NE(whole.scene, nullptr);
     EXPECT_EQ(whole.scene->source, "whole");
     EXPECT_EQ(whole.error, "");
     EXPECT_FALSE(loader.isBusy());
-    loader.order({"broken", {}, {}});
+    loader.order({"broken", {}, {}, {}, {}});
     const SceneLoader::Outcome broken = wait(loader);
     EXPECT_EQ(broken.scene, nullptr);
     EXPECT_EQ(broken.error, "it is broken");
@@ -59,7 +59,7 @@ TEST(SceneLoader, LeavesOutOrdersThatAreOutdatedBeforeTheyBegin) {
         },
         [] {});
     for (const char* source : {"a", "b", "c", "d"})
-        loader.order({source, {}, {}});
+        loader.order({source, {}, {}, {}, {}});
     go.set_value();
     EXPECT_EQ(wait(loader).order.source, "a");
     EXPECT_EQ(wait(loader).order.source, "d");
