@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace lavalight::gpu {
@@ -27,5 +28,13 @@ struct SpecialisationConstant {
 // time. Throws Error.
 [[nodiscard]] std::vector<uint32_t> specialised(const std::vector<uint32_t>& spirv,
                                                 std::span<const SpecialisationConstant> constants);
+
+// Those of the constants that the module declares, in their order.
+[[nodiscard]] std::vector<SpecialisationConstant>
+declaredIn(std::span<const uint32_t> spirv, std::span<const SpecialisationConstant> constants);
+
+// Names specialised()'s passes and the version of SPIRV-Tools: what its result depends on beside its
+// arguments.
+[[nodiscard]] std::string specialisingPasses();
 
 } // namespace lavalight::gpu

@@ -66,6 +66,24 @@ TEST_F(Render, WithoutOutputOptionsTheExrIsNamedAfterTheScene) {
     EXPECT_EQ(folder_.count(), 1);
 }
 
+TEST_F(Render, CacheOfKernelsChangesNoBitWhateverIsInIt) {
+    const EnvironmentVariable cache("LAVALIGHT_CACHE", (folder_ / "cache").string());
+    const std::filesystem::path kernels = folder_ / "cache/kernels";
+    const auto countFiles = [&] { return std::distance(std::filesystem::directory_iterator(kernels), {}); };
+    expectSuccess({"cornell-glass", "-o", "empty.exr", "--quiet"});
+    const auto files = countFiles();
+    EXPECT_GT(files, 2);
+    expectSuccess({"cornell-glass", "-o", "filled.exr", "--quiet"});
+    EXPECT_EQ(countFiles(), files);
+    for (const auto& file : std::filesystem::directory_iterator(kernels))
+        std::filesystem::resize_file(file, file.file_size() / 2);
+    expectSuccess({"cornell-glass", "-o", "damaged.exr", "--quiet"});
+    const EnvironmentVariable off("LAVALIGHT_CACHE", "off");
+    expectSuccess({"cornell-glass", "-o", "off.exr", "--quiet"});
+    for (const char* name : {"filled.exr", "damaged.exr", "off.exr"})
+        EXPECT_EQ(image(name).radiance().pixels, image("empty.exr").radiance().pixels) << name;
+}
+
 TEST_F(Render, PngAloneWritesNoExr) {
     expectSuccess({"--png", "only.png"});
     EXPECT_TRUE(readFile(folder_ / "only.png").starts_with("\x89PNG"));
