@@ -10,6 +10,9 @@ target_compile_options(lavalight_options INTERFACE $<$<BOOL:${LAVALIGHT_PYTHON}>
 # g++ 13 and newer report members of an empty std::optional or std::variant as used uninitialised.
 target_compile_options(lavalight_options INTERFACE
     $<$<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_GREATER_EQUAL:$<CXX_COMPILER_VERSION>,13>>:-Wno-maybe-uninitialized>)
+# g++ 13 takes what a view refers to for a part of the view; g++ 14 knows better.
+target_compile_options(lavalight_options INTERFACE
+    $<$<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_GREATER_EQUAL:$<CXX_COMPILER_VERSION>,13>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,14>>:-Wno-dangling-reference>)
 target_include_directories(lavalight_options INTERFACE ${CMAKE_SOURCE_DIR}/src ${CMAKE_SOURCE_DIR}/shaders)
 
 # lavalight_library(NAME DEPS ... [PRIVATE_DEPS ...] [EXCLUDE file...] [TOGETHER n]): all of src/NAME and below as lavalight_NAME.
