@@ -24,6 +24,7 @@
 #include "cli/commands/status_command.h"
 #include "cli/commands/trace_command.h"
 #include "cli/commands/view_command.h"
+#include "cli/help_formatter.h"
 
 namespace lavalight {
 namespace {
@@ -57,6 +58,7 @@ CommandLine::CommandLine()
           "lavalight")) {
     CLI::App& app = *app_;
     app.set_version_flag("--version", fmt::format("lavalight {}", versionText()));
+    app.formatter(std::make_shared<HelpFormatter>()); // before the commands, which inherit it
     app.require_subcommand(0, 1);
     app.option_defaults()->always_capture_default();
     commands_.push_back(std::make_unique<RenderCommand>(app));
