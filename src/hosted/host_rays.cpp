@@ -31,7 +31,9 @@ inline uvec4 texelFetch(TexelBuffer buffer, int index) {
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wparentheses"
 #pragma GCC diagnostic ignored "-Wshadow"
+#ifndef __clang__ // clang does not have this one
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+#endif
 struct ShaderRays {
     SceneFeatures features = 0;
     [[nodiscard]] bool has(SceneFeatures feature) const { return (features & feature) != 0; }

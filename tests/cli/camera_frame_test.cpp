@@ -86,7 +86,7 @@ TEST_F(CameraFrame, AllThatItFramesStaysInThePictureWhateverItsShape) {
     }
     GltfBuilder builder;
     addTiles(builder, 0.0f);
-    builder.json["cameras"] = {perspective()};
+    builder.json["cameras"] = json::array({perspective()});
     builder.addNode({{"camera", 0}, {"translation", {0, 0, 5}}});
     write(builder);
     for (const char* size : {"64x64", "32x64", "128x32", "200x20"}) {
@@ -116,7 +116,7 @@ TEST_F(CameraFrame, HeightIsKeptWhereNothingIsCropped) {
 TEST_F(CameraFrame, FovThatIsAskedForIsTheHeightOfAnyPicture) {
     GltfBuilder builder;
     addTiles(builder, 0.0f);
-    builder.json["cameras"] = {perspective()};
+    builder.json["cameras"] = json::array({perspective()});
     builder.addNode({{"camera", 0}, {"translation", {0, 0, 5}}});
     write(builder);
     (void)render("s.glb", {"--size", "64x64", "--fov", "11.42"}); // 1 m high

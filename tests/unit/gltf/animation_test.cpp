@@ -29,7 +29,7 @@ struct Moving {
             {"input", input}, {"output", addValues(builder)}, {"interpolation", interpolation}};
         builder.json["animations"] = {
             {{"name", "move"},
-             {"samplers", {sampler}},
+             {"samplers", Json::array({sampler})},
              {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", path}}}}}}}};
     }
 

@@ -69,7 +69,7 @@ struct GltfBuilder {
 
     // A mesh of one primitive; returns its number.
     int addMesh(Json primitive) {
-        json["meshes"].push_back({{"name", "part"}, {"primitives", {std::move(primitive)}}});
+        json["meshes"].push_back({{"name", "part"}, {"primitives", Json::array({std::move(primitive)})}});
         return static_cast<int>(json["meshes"].size()) - 1;
     }
 

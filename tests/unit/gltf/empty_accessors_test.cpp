@@ -37,7 +37,7 @@ TEST(EmptyGltf, RestOfTheSceneIsShownWhateverIsEmpty) {
     const auto withEmpty = [](const char* type, Json primitive) -> Change {
         return [type, primitive = std::move(primitive)](GltfBuilder& builder) {
             (void)addEmpty(builder, type); // accessor 2
-            builder.json["meshes"].push_back({{"primitives", {primitive}}});
+            builder.json["meshes"].push_back({{"primitives", Json::array({primitive})}});
             builder.addNode({{"mesh", 1}});
         };
     };
@@ -48,10 +48,11 @@ TEST(EmptyGltf, RestOfTheSceneIsShownWhateverIsEmpty) {
              builder.addNode({{"mesh", 1}});
          },
          "a mesh without primitives shows nothing: mesh 1"},
-        {withMesh({Json::object()}), "a primitive without positions shows nothing: mesh 1"},
-        {withMesh({{{"attributes", Json::object()}, {"indices", 1}}}),
+        {withMesh(Json::array({Json::object()})), "a primitive without positions shows nothing: mesh 1"},
+        {withMesh(Json::array({{{"attributes", Json::object()}, {"indices", 1}}})),
          "a primitive without positions shows nothing: mesh 1"},
-        {withMesh({{{"attributes", {{"NORMAL", 0}}}}}), "a primitive without positions shows nothing"},
+        {withMesh(Json::array({{{"attributes", {{"NORMAL", 0}}}}})),
+         "a primitive without positions shows nothing"},
         {withEmpty("VEC3", {{"attributes", {{"POSITION", 2}}}, {"indices", 1}}),
          "a primitive without positions shows nothing: mesh 1"},
         {withEmpty("SCALAR", {{"attributes", {{"POSITION", 0}}}, {"indices", 2}}),

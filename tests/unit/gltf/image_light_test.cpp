@@ -30,8 +30,9 @@ GltfBuilder lit(const std::vector<uint32_t>& faces) {
         builder.json["images"].push_back({{"uri", pngUri(faces[i])}});
         numbers.push_back(i);
     }
-    builder.json["extensions"][kExtension]["lights"] = {
-        {{"specularImages", {numbers}}, {"specularImageSize", 4}, {"irradianceCoefficients", Json::array()}}};
+    builder.json["extensions"][kExtension]["lights"] = {{{"specularImages", Json::array({numbers})},
+                                                         {"specularImageSize", 4},
+                                                         {"irradianceCoefficients", Json::array()}}};
     builder.json["scenes"] = {{{"nodes", {node}}, {"extensions", {{kExtension, {{"light", 0}}}}}}};
     return builder;
 }

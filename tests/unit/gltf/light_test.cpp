@@ -19,7 +19,7 @@ void expectNear(const glm::vec3& a, const glm::vec3& b) {
 GltfBuilder fileWith(Json light, Json node = Json::object()) {
     GltfBuilder builder;
     builder.addNode({{"mesh", builder.addTriangle()}});
-    builder.json["extensions"][kExtension]["lights"] = {std::move(light)};
+    builder.json["extensions"][kExtension]["lights"] = Json::array({std::move(light)});
     node["extensions"][kExtension]["light"] = 0;
     builder.addNode(std::move(node));
     return builder;

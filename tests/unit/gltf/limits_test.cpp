@@ -221,7 +221,7 @@ TEST(GltfLimits, HugeAndUndefinedTransformsLeaveASoundScene) {
 TEST(GltfLimits, CameraNumbersBeyondFloatsLeaveASoundScene) {
     const auto scene = [](const Json& camera) {
         GltfBuilder builder = goodFile();
-        builder.json["cameras"] = {camera};
+        builder.json["cameras"] = Json::array({camera});
         builder.json["nodes"][0]["camera"] = 0;
         return builder.import();
     };

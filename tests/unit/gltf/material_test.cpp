@@ -13,7 +13,7 @@ GltfBuilder triangleOf(Json material) {
     GltfBuilder builder;
     const int mesh = builder.addTriangle();
     builder.json["meshes"][0]["primitives"][0]["material"] = 0;
-    builder.json["materials"] = {std::move(material)};
+    builder.json["materials"] = Json::array({std::move(material)});
     builder.addNode({{"mesh", mesh}});
     return builder;
 }

@@ -24,7 +24,7 @@ const Json kPerspective = {{"type", "perspective"}, {"perspective", {{"yfov", 0.
 
 TEST(GltfCamera, PerspectiveLooksAlongMinusZOfItsNode) {
     GltfBuilder builder;
-    builder.json["cameras"] = {kPerspective};
+    builder.json["cameras"] = Json::array({kPerspective});
     builder.json["cameras"][0]["perspective"]["aspectRatio"] = 1.5;
     const float half = std::sqrt(0.5f);
     builder.addNode({{"camera", 0},
@@ -57,7 +57,7 @@ TEST(GltfCamera, OrthographicKeepsItsHalfHeight) {
 
 TEST(GltfCamera, ScalesShearsAndMirrorsOfTheNodeDoNotReachTheCamera) {
     GltfBuilder builder;
-    builder.json["cameras"] = {kPerspective};
+    builder.json["cameras"] = Json::array({kPerspective});
     builder.addNode({{"scale", {-3, 2, 5}}, {"children", {1}}});
     builder.addNode({{"camera", 0}, {"rotation", {0.3, 0.2, 0.1, 0.9}}});
     expectOrthonormal(builder.import().cameras.at(0));
@@ -75,7 +75,7 @@ TEST(GltfCamera, CamerasComeInTheOrderOfTheFile) {
 
 TEST(GltfCamera, CameraThatCannotFormAnImageIsLeftOutWithAWarning) {
     GltfBuilder builder;
-    builder.json["cameras"] = {kPerspective};
+    builder.json["cameras"] = Json::array({kPerspective});
     builder.json["cameras"][0]["perspective"]["yfov"] = 0;
     builder.addNode({{"camera", 0}, {"name", "blind"}});
     const Scene scene = builder.import();
