@@ -76,6 +76,7 @@ def test_examples_of_the_page_run(page, tmp_path, monkeypatch):
         if "import dask" in block and importlib.util.find_spec("distributed") is None:
             continue
         exec(compile(block, page, "exec"), names)  # one after another, as a reader would
+    assert page != "docs/python.md" or names["image"].complete
 
 
 def test_pages_with_examples_are_found():

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <vector>
@@ -12,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "base/content_hash.h"
+#include "base/os/environment.h"
 
 namespace lavalight {
 namespace {
@@ -30,11 +30,6 @@ std::string hashOf(std::string_view bytes) {
 fs::path partOf(const fs::path& file) {
     static std::atomic<uint32_t> number = 0;
     return fs::path(file) += fmt::format(".{}-{}.part", getpid(), ++number);
-}
-
-std::optional<fs::path> folderOf(const char* variable) {
-    const char* value = std::getenv(variable);
-    return value != nullptr && *value != '\0' ? std::optional<fs::path>(value) : std::nullopt;
 }
 
 } // namespace
@@ -98,11 +93,11 @@ void UserCache::removeOldest() const {
 }
 
 std::optional<fs::path> userCacheFolder(const std::string& name) {
-    if (const std::optional<fs::path> named = folderOf("LAVALIGHT_CACHE"))
+    if (const auto named = environmentPath("LAVALIGHT_CACHE"))
         return *named == "off" ? std::nullopt : std::optional(*named / name);
-    if (const std::optional<fs::path> cache = folderOf("XDG_CACHE_HOME"))
+    if (const auto cache = environmentPath("XDG_CACHE_HOME"))
         return *cache / "lavalight" / name;
-    const std::optional<fs::path> home = folderOf("HOME");
+    const auto home = environmentPath("HOME");
     return home ? std::optional(*home / ".cache/lavalight" / name) : std::nullopt;
 }
 

@@ -2,7 +2,6 @@
 
 #include <cassert>
 #include <cstddef>
-#include <cstdlib>
 #include <filesystem>
 #include <optional>
 #include <system_error>
@@ -12,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/os/environment.h"
 #include "base/os/shared_library.h"
 #include "base/parallel.h"
 
@@ -46,11 +46,6 @@ int qualityOf(DenoiseQuality quality) {
     return kQualityHigh;
 }
 
-std::optional<fs::path> folderOf(const char* variable) {
-    const char* value = std::getenv(variable);
-    return value != nullptr && *value != '\0' ? std::optional<fs::path>(value) : std::nullopt;
-}
-
 // lib/python3.*/site-packages and dist-packages below a folder.
 void addPythonPackages(const fs::path& root, std::vector<fs::path>& files) {
     std::error_code code;
@@ -63,12 +58,12 @@ void addPythonPackages(const fs::path& root, std::vector<fs::path>& files) {
 // Files that may be the library, in order.
 std::vector<fs::path> candidates() {
     std::vector<fs::path> files{kFileName};
-    const std::optional<fs::path> home = folderOf("HOME");
-    if (const auto data = folderOf("XDG_DATA_HOME"))
+    const std::optional<fs::path> home = environmentPath("HOME");
+    if (const auto data = environmentPath("XDG_DATA_HOME"))
         files.push_back(*data / "lavalight/oidn/lib" / kFileName);
     else if (home)
         files.push_back(*home / ".local/share/lavalight/oidn/lib" / kFileName);
-    if (const auto environment = folderOf("VIRTUAL_ENV"))
+    if (const auto environment = environmentPath("VIRTUAL_ENV"))
         addPythonPackages(*environment, files);
     if (home)
         addPythonPackages(*home / ".local", files);
@@ -78,7 +73,7 @@ std::vector<fs::path> candidates() {
 }
 
 SharedLibrary load() {
-    if (const auto named = folderOf(kVariable)) {
+    if (const auto named = environmentPath(kVariable)) {
         std::error_code code;
         fs::path file = fs::is_directory(*named, code) ? *named / kFileName : *named;
         if (fs::is_directory(*named / "lib", code))

@@ -13,6 +13,7 @@
 #include <vulkan/vk_icd.h>
 
 #include "base/error.h"
+#include "base/os/environment.h"
 
 namespace lavalight::gpu {
 namespace {
@@ -92,7 +93,7 @@ std::string manifestOf(const std::filesystem::path& library) {
 
 bool hasNamedManifests() {
     for (const char* variable : {"VK_DRIVER_FILES", "VK_ICD_FILENAMES"})
-        if (const char* files = std::getenv(variable); files != nullptr && *files != '\0')
+        if (environmentVariable(variable))
             return true;
     return false;
 }
@@ -108,11 +109,11 @@ void useDriver(std::filesystem::path library) {
 DriverOffer::DriverOffer(bool knowsDirectDrivers) {
     DirectDriver& driver = theDriver();
     const std::lock_guard lock(driver.mutex);
-    const char* named = std::getenv(kDriverVariable);
-    if (named != nullptr && std::string_view(named) == "system")
+    const std::optional<std::string> named = environmentVariable(kDriverVariable);
+    if (named == "system")
         return;
-    if (named != nullptr && *named != '\0')
-        driver.wanted = named;
+    if (named)
+        driver.wanted = *named;
     if (driver.wanted.empty())
         return;
     if (driver.wanted != driver.loaded)

@@ -29,7 +29,7 @@ struct SpecialisationConstant {
 [[nodiscard]] std::vector<uint32_t> specialised(const std::vector<uint32_t>& spirv,
                                                 std::span<const SpecialisationConstant> constants);
 
-// Those of the constants that the module declares, in their order.
+// The constants that the module declares, in the order given.
 [[nodiscard]] std::vector<SpecialisationConstant>
 declaredIn(std::span<const uint32_t> spirv, std::span<const SpecialisationConstant> constants);
 

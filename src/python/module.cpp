@@ -99,8 +99,7 @@ std::vector<Table> runLab(const std::string& name, const LabOptions& options) {
                             }};
         try {
             tables = runExperiment(experiment, lab, options);
-        } catch (const Interruption&) {
-            tables.clear();
+        } catch (const Interruption&) { // the watch has what Python raised
         }
     }
     watch.rethrow();

@@ -9,7 +9,7 @@ need_root() {
     fi
 }
 
-# The keys that sign Ubuntu's archive, which Debian has no package of: from Ubuntu's, by its hash.
+# Fetches the keys that sign Ubuntu's archive. Debian has no package of them; Ubuntu's is known by its hash.
 fetch_ubuntu_keys() {
     local keys="$1" mirror="$2" work
     [ ! -s "$keys" ] || return 0
@@ -39,7 +39,7 @@ make_root() {
     rm -rf "$root.part"
     mkdir -p "$root.part"
     case "$suite" in
-    jammy | noble | plucky | questing | resolute) # Ubuntu's, of which an older debootstrap knows that all are alike
+    jammy | noble | plucky | questing | resolute) # Ubuntu; one script serves all, and an older debootstrap lacks their names
         mirror="${LAVALIGHT_UBUNTU_MIRROR:-http://archive.ubuntu.com/ubuntu}"
         fetch_ubuntu_keys "$(dirname "$root")/ubuntu-archive-keyring.gpg" "$mirror"
         options=(--components=main,universe "--keyring=$(dirname "$root")/ubuntu-archive-keyring.gpg")
