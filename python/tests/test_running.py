@@ -112,8 +112,7 @@ def run(code, **more):
 
 
 @pytest.mark.parametrize("work", ["scene.render(size=(512, 512), spp=100000)",
-                                  "lavalight.lab('dice', samples=2**29)",  # one estimate of many samples
-                                  "lavalight.lab('mis', samples=2**16)"])  # renders
+                                  "lavalight.lab('mis', samples=2**16)"])
 def test_ctrl_c_raises_keyboard_interrupt_soon(work):
     code = ("import lavalight, sys\nscene = lavalight.load('cornell-box')\nscene.render(size=(8, 8), spp=1)\nprint('ready', flush=True)\n"
             f"try:\n    {work}\nexcept KeyboardInterrupt:\n    print('interrupted', flush=True)\n"

@@ -81,6 +81,13 @@ TEST_F(LabCommandTest, EveryRowOfDiceFinds24AndAHalfWithTheVarianceOfTheory) {
     }
 }
 
+TEST_F(LabCommandTest, EveryPassOfALongEstimateCounts) { // of 16 million samples each
+    for (const json& row : table("dice", "dice", {"--samples", "40000000"}).at("rows")) {
+        EXPECT_EQ(row.at("rolls"), 40000000) << row;
+        expectUnbiased(row);
+    }
+}
+
 TEST_F(LabCommandTest, DiceRowsAreTheLectures) {
     const json rows = table("dice", "dice").at("rows");
     const std::vector<double> variancesPerRoll{215.83, 522.1, 158.1, 2148.7, 142.9};
