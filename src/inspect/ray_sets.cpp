@@ -68,8 +68,9 @@ std::vector<Ray> makeCameraRays(const Camera& camera, size_t count, uint32_t see
     rays.reserve(size_t{settings.image.width} * settings.image.height);
     for (uint32_t y = 0; y < settings.image.height; ++y)
         for (uint32_t x = 0; x < settings.image.width; ++x) {
-            const glm::vec2 position(static_cast<float>(x) + random.unit(),
-                                     static_cast<float>(y) + random.unit());
+            const float down = random.unit(); // apart: arguments are evaluated in any order
+            const float across = random.unit();
+            const glm::vec2 position(static_cast<float>(x) + across, static_cast<float>(y) + down);
             const glm::vec2 ndc =
                 2.0f * position / glm::vec2(settings.image.width, settings.image.height) - 1.0f;
             const glm::vec3 onPlane = ndc.x * frame.cameraRight - ndc.y * frame.cameraUp;

@@ -161,9 +161,9 @@ TEST_F(CameraFrame, DistancesToPlanesAreAlongTheDirectionOfView) {
         addTiles(builder, z);
     builder.addNode({{"camera", 0}, {"translation", {0, 0, 2}}});
     const auto renderBetween = [&](double znear, double zfar, const Words& more) {
-        builder.json["cameras"] = {
-            {{"type", "perspective"},
-             {"perspective", {{"yfov", 1.5}, {"aspectRatio", 1.0}, {"znear", znear}, {"zfar", zfar}}}}};
+        builder.json["cameras"] = json::array(
+            {{{"type", "perspective"},
+              {"perspective", {{"yfov", 1.5}, {"aspectRatio", 1.0}, {"znear", znear}, {"zfar", zfar}}}}});
         write(builder);
         Words arguments{"--size", "64x64"};
         arguments.insert(arguments.end(), more.begin(), more.end());
@@ -197,11 +197,11 @@ TEST_F(CameraFrame, PlanesClipCameraRaysAlone) {
     builder.addNode({{"mesh", builder.addMesh({{"attributes", {{"POSITION", lamp}}}, {"material", 1}})}});
     builder.json["materials"][1]["doubleSided"] = true;
     builder.addNode({{"camera", 0}, {"translation", {0, 0, 5}}});
-    builder.json["cameras"] = {orthographic(0.1, 0.1)};
+    builder.json["cameras"] = json::array({orthographic(0.1, 0.1)});
     write(builder);
     (void)render("s.glb", {"--size", "8x8"});
     EXPECT_EQ(image().at(4, 4), glm::vec3(1.0f)); // the back of the lamp
-    builder.json["cameras"] = {orthographic(0.1, 0.1, 1.0)};
+    builder.json["cameras"] = json::array({orthographic(0.1, 0.1, 1.0)});
     write(builder);
     (void)render("s.glb", {"--size", "8x8"});
     for (const glm::vec3& pixel : image().pixels) {
@@ -213,7 +213,7 @@ TEST_F(CameraFrame, PlanesClipCameraRaysAlone) {
 TEST_F(CameraFrame, PlanesWithNothingBetweenThemAreNamedAndLeftOut) {
     GltfBuilder builder;
     addTiles(builder, 0.0f);
-    builder.json["cameras"] = {orthographic(2, 2, 5, 1)};
+    builder.json["cameras"] = json::array({orthographic(2, 2, 5, 1)});
     builder.addNode({{"camera", 0}, {"translation", {0, 0, 5}}});
     write(builder);
     const ProgramResult result = render("s.glb", {"--size", "64x64"});
