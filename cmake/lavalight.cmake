@@ -57,14 +57,14 @@ endfunction()
 # lavalight_embed_kernels(TARGET NAMESPACE ns FILES k.comp...): compiles kernels with the program's own compiler,
 # so that a shader error fails the build, inlines them, and embeds the SPIR-V as `ns::find(name)`.
 function(lavalight_embed_kernels target)
-    cmake_parse_arguments(ARG "" "NAMESPACE" "FILES" ${ARGN})
+    cmake_parse_arguments(ARG "EACH_ACCELERATOR" "NAMESPACE" "FILES" ${ARGN})
     set(dir ${CMAKE_BINARY_DIR}/generated/${target})
     set(out ${dir}/${ARG_NAMESPACE}.cpp)
     file(GLOB_RECURSE includes CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/shaders/*.glsl ${CMAKE_SOURCE_DIR}/shaders/*.h)
     add_custom_command(OUTPUT ${out} ${dir}/${ARG_NAMESPACE}.h
         COMMAND embed_kernels --include ${CMAKE_SOURCE_DIR}/shaders --namespace ${ARG_NAMESPACE}
-                --out ${dir} ${ARG_FILES}
-        DEPENDS embed_kernels ${ARG_FILES} ${includes} VERBATIM)
+                --out ${dir} $<$<BOOL:${ARG_EACH_ACCELERATOR}>:--each-accelerator> ${ARG_FILES}
+        DEPENDS embed_kernels ${ARG_FILES} ${includes} VERBATIM COMMAND_EXPAND_LISTS)
     target_sources(${target} PRIVATE ${out})
     target_include_directories(${target} PUBLIC ${dir})
 endfunction()

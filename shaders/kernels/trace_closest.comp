@@ -1,5 +1,6 @@
 #version 460
 // Finds the closest hit of rays that the host made, as extend does for those of a wave: for benchmarks and tests.
+#include "lib/math/constants.glsl"
 #include "scene/visit_counts.glsl"
 #include "shared/trace.h"
 

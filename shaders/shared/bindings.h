@@ -53,4 +53,6 @@
 #define BINDING_RECORDS_IN 32
 #define BINDING_RECORDS_OUT 33
 
+#define BINDING_TRIANGLE_STRUCTURE 37 // the accelerator "ray_query", read only
+
 #endif

@@ -17,8 +17,12 @@ std::vector<TriangleRecord> inOrderOf(const AcceleratorData& data,
 
 } // namespace
 
+std::string_view kernelAccelerator(AcceleratorKind kind) {
+    return kind == AcceleratorKind::rayQuery ? kRayQuery : kBvh8;
+}
+
 std::vector<uint32_t> AcceleratorData::trianglesOfRecords(size_t triangles) const {
-    if (!embree)
+    if (kind == AcceleratorKind::bvh8)
         return bvh.leafTriangles;
     std::vector<uint32_t> records(triangles);
     std::iota(records.begin(), records.end(), 0u);
@@ -34,24 +38,43 @@ std::vector<uint32_t> AcceleratorData::recordsOfTriangles(size_t triangles) cons
 }
 
 std::string AcceleratorData::name() const {
-    return embree ? EmbreeTriangles::identity() : std::string(kAcceleratorName);
+    return embree ? EmbreeTriangles::identity() : std::string(kernelAccelerator(kind));
 }
 
 AcceleratorData buildAccelerator(std::span<const Triangle> triangles, AcceleratorKind kind) {
+    AcceleratorData data{kind};
     if (kind == AcceleratorKind::bvh8)
-        return {buildBvh(triangles), nullptr};
-    return {{}, std::make_shared<const EmbreeTriangles>(triangles, RTC_BUILD_QUALITY_HIGH, kTracedByHost)};
+        data.bvh = buildBvh(triangles);
+    if (kind == AcceleratorKind::embree)
+        data.embree =
+            std::make_shared<const EmbreeTriangles>(triangles, RTC_BUILD_QUALITY_HIGH, kTracedByHost);
+    return data;
 }
 
 Accelerator::Accelerator(gpu::Device& device, const AcceleratorData& data,
                          std::span<const TriangleRecord> triangles)
-    : buildSeconds_(data.embree ? data.embree->buildSeconds() : data.bvh.buildSeconds), embree_(data.embree),
+    : kind_(data.kind), bvhSeconds_(data.bvh.buildSeconds), embree_(data.embree),
       nodes_(uploadTexels(device, "BVH nodes", data.bvh.nodes)),
-      triangles_(uploadTexels(device, "triangles", inOrderOf(data, triangles))) {}
+      triangles_(uploadTexels(device, "triangles", inOrderOf(data, triangles), gpu::BufferUse::corners)) {
+    static_assert(sizeof(TriangleRecord) == gpu::TriangleStructure::kTriangleBytes);
+    if (kind_ == AcceleratorKind::rayQuery)
+        structure_.emplace(device, triangles_, triangles.size());
+}
+
+double Accelerator::buildSeconds() const {
+    return embree_ ? embree_->buildSeconds() : structure_ ? structure_->buildSeconds() : bvhSeconds_;
+}
+
+uint64_t Accelerator::bytes() const {
+    return nodes_.bytes() + triangles_.bytes() + (embree_ ? embree_->bytes() : 0) +
+           (structure_ ? structure_->bytes() : 0);
+}
 
 void Accelerator::addTo(gpu::ResourceTable& resources) const {
     resources.set("bvhNodes", nodes_);
     resources.set("triangles", triangles_);
+    if (structure_)
+        resources.set("triangleStructure", *structure_);
 }
 
 } // namespace lavalight

@@ -1,35 +1,43 @@
 // The accelerator of a scene, which answers the two functions of shaders/scene/intersect.glsl: the only place
-// on the host that knows what it is. Kernels have a BVH, whose other half is a folder of shaders/scene/; the
-// host (src/hosted) has Embree.
+// on the host that knows what it is. Kernels have a BVH or the device's own structure, whose other halves are
+// folders of shaders/scene/; the host (src/hosted) has Embree.
 #pragma once
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "accel/bvh.h"
 #include "accel/embree_triangles.h"
 #include "gpu/buffer.h"
 #include "gpu/kernel.h"
+#include "gpu/triangle_structure.h"
 #include "kernels/accelerator_name.h"
 #include "shared/triangle.h"
 
 namespace lavalight {
 
 enum class AcceleratorKind {
-    bvh8,  // traversed by kernels
-    embree // traversed by the host
+    bvh8,    // traversed by kernels
+    embree,  // traversed by the host
+    rayQuery // built by the device, and traversed where kernels ask it (VK_KHR_ray_query)
 };
+
+// The name of its kernels (kernels/accelerator_name.h). Those of Embree trace nothing.
+[[nodiscard]] std::string_view kernelAccelerator(AcceleratorKind kind);
 
 // An accelerator before it is uploaded. Which builder made the tree decides no bit of a film.
 struct AcceleratorData {
-    Bvh bvh;                                       // or
-    std::shared_ptr<const EmbreeTriangles> embree; // null: the BVH
+    AcceleratorKind kind = AcceleratorKind::bvh8;
+    Bvh bvh{};                                       // of AcceleratorKind::bvh8
+    std::shared_ptr<const EmbreeTriangles> embree{}; // of AcceleratorKind::embree
 
-    // Triangle of each record, in the order in which kernels number records; triangles may repeat. Embree's
-    // records are the triangles.
+    // Triangle of each record, in the order in which kernels number records; triangles may repeat. But for
+    // the BVH, records are the triangles.
     [[nodiscard]] std::vector<uint32_t> trianglesOfRecords(size_t triangles) const;
     // A record of each triangle.
     [[nodiscard]] std::vector<uint32_t> recordsOfTriangles(size_t triangles) const;
@@ -50,19 +58,20 @@ class Accelerator {
     // Puts the buffers into `resources` under the names of the kernels.
     void addTo(gpu::ResourceTable& resources) const;
 
-    // Null where kernels traverse a BVH.
+    [[nodiscard]] AcceleratorKind kind() const { return kind_; }
+    // Null but for AcceleratorKind::embree.
     [[nodiscard]] const EmbreeTriangles* embree() const { return embree_.get(); }
-    [[nodiscard]] double buildSeconds() const { return buildSeconds_; }
+    [[nodiscard]] double buildSeconds() const;
     // On the device, and on the host if it is the host that traces.
-    [[nodiscard]] uint64_t bytes() const {
-        return nodes_.bytes() + triangles_.bytes() + (embree_ ? embree_->bytes() : 0);
-    }
+    [[nodiscard]] uint64_t bytes() const;
 
   private:
-    double buildSeconds_;
+    AcceleratorKind kind_;
+    double bvhSeconds_;
     std::shared_ptr<const EmbreeTriangles> embree_;
     gpu::Buffer nodes_;
     gpu::Buffer triangles_;
+    std::optional<gpu::TriangleStructure> structure_; // of AcceleratorKind::rayQuery, over triangles_
 };
 
 } // namespace lavalight

@@ -18,14 +18,33 @@ constexpr uint64_t kTexelBytes = 16;
 [[maybe_unused]] constexpr uint64_t kMostUniformBytes = 16384; // what every Vulkan device allows
 constexpr vk::Format kTexelFormat = vk::Format::eR32G32B32A32Uint;
 
-vk::BufferUsageFlags usageFlags(BufferUse use, bool storesTexels) {
-    using Usage = vk::BufferUsageFlagBits;
-    const vk::BufferUsageFlags copies = Usage::eTransferSrc | Usage::eTransferDst;
-    if (use == BufferUse::texels && !storesTexels)
-        return copies | Usage::eUniformTexelBuffer;
+using Usage = vk::BufferUsageFlagBits;
+
+bool holdsTexels(BufferUse use) {
+    return use == BufferUse::texels || use == BufferUse::corners;
+}
+
+// Buffers that the device finds by their address where it builds an acceleration structure.
+vk::BufferUsageFlags buildUsage(BufferUse use) {
+    constexpr vk::BufferUsageFlags kInput =
+        Usage::eShaderDeviceAddress | Usage::eAccelerationStructureBuildInputReadOnlyKHR;
+    return use == BufferUse::structure ? kInput | Usage::eAccelerationStructureStorageKHR
+           : use == BufferUse::corners ? kInput
+                                       : vk::BufferUsageFlags();
+}
+
+vk::BufferUsageFlags usageFlags(BufferUse use, const Device& device) {
+    const vk::BufferUsageFlags always = Usage::eTransferSrc | Usage::eTransferDst |
+                                        (device.tracesRays() ? buildUsage(use) : vk::BufferUsageFlags());
+    if (holdsTexels(use) && !device.storesTexels())
+        return always | Usage::eUniformTexelBuffer;
     if (use == BufferUse::uniform)
-        return copies | Usage::eUniformBuffer;
-    return copies | Usage::eStorageBuffer | Usage::eIndirectBuffer;
+        return always | Usage::eUniformBuffer;
+    return always | Usage::eStorageBuffer | Usage::eIndirectBuffer;
+}
+
+bool hasAddress(BufferUse use, const Device& device) {
+    return device.tracesRays() && buildUsage(use);
 }
 
 // Mesa 22.3's lavapipe takes two properties of a texel buffer for parts of a kernel's key that it means for
@@ -39,11 +58,13 @@ uint64_t texelBytes(uint64_t bytes) {
 }
 
 uint64_t allocatedBytes(uint64_t bytes, BufferUse use) {
-    return use == BufferUse::texels ? texelBytes(bytes) : std::max(bytes, kTexelBytes);
+    return holdsTexels(use) ? texelBytes(bytes) : std::max(bytes, kTexelBytes);
 }
 
 void checkLimits(const Device& device, const std::string& name, uint64_t bytes, BufferUse use) {
-    const bool isTexels = use == BufferUse::texels && !device.storesTexels();
+    if (use == BufferUse::structure) // no kernel binds it
+        return;
+    const bool isTexels = holdsTexels(use) && !device.storesTexels();
     const uint64_t most = isTexels ? device.limits().maxTexelBufferElements * kTexelBytes
                                    : device.limits().maxStorageBufferBytes;
     if (bytes > most)
@@ -63,8 +84,7 @@ Buffer::Buffer(Device& device, std::string name, uint64_t bytes, BufferUse use)
 }
 
 void Buffer::create() {
-    const vk::BufferCreateInfo info({}, allocatedBytes(bytes_, use_),
-                                    usageFlags(use_, device_->storesTexels()));
+    const vk::BufferCreateInfo info({}, allocatedBytes(bytes_, use_), usageFlags(use_, *device_));
     buffer_ = checked("create", name_, [&] { return vk::raii::Buffer(device_->handle(), info); });
 }
 
@@ -79,7 +99,9 @@ void Buffer::allocate() {
         plan_ = plan;
         reservation_ = device_->reserve(needs.size, plan.heap, name_);
         try {
-            memory_ = vk::raii::DeviceMemory(device, vk::MemoryAllocateInfo(needs.size, plan.type));
+            const vk::MemoryAllocateFlagsInfo withAddress(vk::MemoryAllocateFlagBits::eDeviceAddress);
+            const void* next = hasAddress(use_, *device_) ? &withAddress : nullptr;
+            memory_ = vk::raii::DeviceMemory(device, vk::MemoryAllocateInfo(needs.size, plan.type, next));
             break;
         } catch (const vk::SystemError& error) {
             if (error.code() != vk::Result::eErrorOutOfDeviceMemory || plan == plans.back())
@@ -89,10 +111,15 @@ void Buffer::allocate() {
     checked("bind memory of", name_, [&] { buffer_.bindMemory(*memory_, 0); });
     if (plan_.isMapped)
         mapped_ = checked("map", name_, [&] { return memory_.mapMemory(0, VK_WHOLE_SIZE); });
-    if (use_ == BufferUse::texels && !device_->storesTexels()) {
+    if (holdsTexels(use_) && !device_->storesTexels()) {
         const vk::BufferViewCreateInfo info({}, *buffer_, kTexelFormat, 0, allocatedBytes(bytes_, use_));
         view_ = checked("view", name_, [&] { return vk::raii::BufferView(device, info); });
     }
+}
+
+vk::DeviceAddress Buffer::address() const {
+    assert(hasAddress(use_, *device_));
+    return device_->handle().getBufferAddress(vk::BufferDeviceAddressInfo(*buffer_));
 }
 
 void Buffer::upload(std::span<const std::byte> data) {

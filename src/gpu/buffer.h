@@ -54,6 +54,8 @@ class Buffer {
     }
 
     [[nodiscard]] vk::Buffer handle() const { return *buffer_; }
+    // For BufferUse::corners and structure, on a device that traces rays.
+    [[nodiscard]] vk::DeviceAddress address() const;
     // Null on a device that stores texels in storage buffers.
     [[nodiscard]] vk::BufferView texelView() const { return *view_; }
 

@@ -135,6 +135,20 @@ void Commands::dispatchIndirect(const BoundKernel& kernel, const Buffer& sizes, 
     stamp(kernel.kernel().name(), 1);
 }
 
+void Commands::build(const vk::AccelerationStructureBuildGeometryInfoKHR& geometry, uint32_t primitives) {
+    using Access = vk::AccessFlagBits;
+    using Stage = vk::PipelineStageFlagBits;
+    const vk::AccelerationStructureBuildRangeInfoKHR range(primitives, 0, 0, 0);
+    const vk::raii::CommandBuffer& commands = recorded(buffers_);
+    commands.buildAccelerationStructuresKHR(geometry, &range);
+    const vk::MemoryBarrier barrier(Access::eAccelerationStructureWriteKHR,
+                                    Access::eAccelerationStructureReadKHR |
+                                        Access::eAccelerationStructureWriteKHR);
+    commands.pipelineBarrier(Stage::eAccelerationStructureBuildKHR,
+                             Stage::eAccelerationStructureBuildKHR | Stage::eComputeShader, {}, barrier, {},
+                             {});
+}
+
 void Commands::fill(const Buffer& buffer, uint32_t value) {
     recorded(buffers_).fillBuffer(buffer.handle(), 0, VK_WHOLE_SIZE, value);
     finishCommand();

@@ -52,6 +52,8 @@ class Commands {
     // Sets every 32-bit word of `buffer`.
     void fill(const Buffer& buffer, uint32_t value);
     void copy(const Buffer& from, const Buffer& to, uint64_t bytes);
+    // Has the device build an acceleration structure of one geometry.
+    void build(const vk::AccelerationStructureBuildGeometryInfoKHR& geometry, uint32_t primitives);
     // Ends recording and has it run, behind what was submitted to the device before. Buffers and kernels must
     // live until wait(). Throws Error where the device fails or is lost.
     void submit();

@@ -24,7 +24,7 @@ uint64_t hostMemoryBytes() {
     return static_cast<uint64_t>(::sysconf(_SC_PHYS_PAGES)) * static_cast<uint64_t>(::sysconf(_SC_PAGE_SIZE));
 }
 
-DeviceLimits readLimits(const vk::raii::PhysicalDevice& physical, uint32_t queueFamily) {
+DeviceLimits readLimits(const vk::raii::PhysicalDevice& physical, uint32_t queueFamily, bool tracesRays) {
     const auto chain =
         physical.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceSubgroupProperties>();
     const vk::PhysicalDeviceLimits& from = chain.get<vk::PhysicalDeviceProperties2>().properties.limits;
@@ -43,7 +43,32 @@ DeviceLimits readLimits(const vk::raii::PhysicalDevice& physical, uint32_t queue
     if (physical.getProperties().deviceType == vk::PhysicalDeviceType::eCpu)
         limits.memoryBytes =
             std::max(limits.memoryBytes, hostMemoryBytes()); // Mesa 22.3 reports a heap of 2 GiB
+    if (tracesRays) {
+        const auto structures = physical
+                                    .getProperties2<vk::PhysicalDeviceProperties2,
+                                                    vk::PhysicalDeviceAccelerationStructurePropertiesKHR>()
+                                    .get<vk::PhysicalDeviceAccelerationStructurePropertiesKHR>();
+        limits.maxTracedTriangles = structures.maxPrimitiveCount;
+        limits.scratchAlignment = structures.minAccelerationStructureScratchOffsetAlignment;
+    }
     return limits;
+}
+
+vk::raii::Device openDevice(const vk::raii::PhysicalDevice& physical, uint32_t queueFamily, bool tracesRays) {
+    const float priority = 1.0f;
+    const vk::DeviceQueueCreateInfo queue({}, queueFamily, 1, &priority);
+    vk::PhysicalDeviceBufferDeviceAddressFeatures addresses(VK_TRUE);
+    vk::PhysicalDeviceAccelerationStructureFeaturesKHR structures(VK_TRUE);
+    vk::PhysicalDeviceRayQueryFeaturesKHR queries(VK_TRUE);
+    addresses.pNext = &structures;
+    structures.pNext = &queries;
+    vk::DeviceCreateInfo info({}, queue);
+    if (tracesRays) {
+        info.setPEnabledExtensionNames(kRayExtensions);
+        info.setPNext(&addresses);
+    }
+    const auto lock = lockLoader();
+    return {physical, info};
 }
 
 } // namespace
@@ -61,7 +86,7 @@ Device::Device(const DeviceConfig& config)
     description_ = descriptions[chosen];
     physical_ = std::move(devices[chosen]);
     queueFamily_ = *findComputeFamily(physical_);
-    limits_ = readLimits(physical_, queueFamily_);
+    limits_ = readLimits(physical_, queueFamily_, description_.tracesRays);
     memory_ = physical_.getMemoryProperties();
     const std::vector<MemoryPlan> plans =
         gpu::planMemory(memory_, heapBytes_, {BufferUse::storage, 0, ~0u, stagesBuffers_});
@@ -69,12 +94,8 @@ Device::Device(const DeviceConfig& config)
     runsAhead_ = config.runsAhead || !description_.isCpu;
     storesTexels_ = config.storesTexels || !hasTexelBuffers(physical_.getProperties().limits);
 
-    const float priority = 1.0f;
-    const vk::DeviceQueueCreateInfo queueInfo({}, queueFamily_, 1, &priority);
-    device_ = checked("open", description_.name, [&] {
-        const auto lock = lockLoader();
-        return vk::raii::Device(physical_, vk::DeviceCreateInfo({}, queueInfo));
-    });
+    device_ = checked("open", description_.name,
+                      [&] { return openDevice(physical_, queueFamily_, description_.tracesRays); });
     queue_ = vk::raii::Queue(device_, queueFamily_, 0);
 }
 

@@ -43,6 +43,7 @@ struct DeviceDescription {
     std::string apiVersion;
     std::vector<std::string> refusals; // why this device cannot render; empty: it can
     bool isCpu = false;
+    bool tracesRays = false;   // kernels may ask it where rays meet triangles (VK_KHR_ray_query)
     bool sharesMemory = false; // of the device in use: the host reads and writes its buffers where they lie
 };
 
@@ -58,6 +59,8 @@ struct DeviceLimits {
     uint32_t subgroupSize = 0;
     uint64_t memoryBytes = 0;          // the largest device-local heap
     double timestampNanoseconds = 0.0; // 0: no timestamps on the queue
+    uint64_t maxTracedTriangles = 0;   // of one acceleration structure; 0: the device has none
+    uint64_t scratchAlignment = 1;     // bytes, of what it builds one with
 };
 
 // A share of the device's memory, given back on destruction.
@@ -124,6 +127,7 @@ class Device {
     // Where such a buffer may go (gpu/memory_plan.h), best first.
     [[nodiscard]] std::vector<MemoryPlan> planMemory(const vk::MemoryRequirements& needs,
                                                      BufferUse use) const;
+    [[nodiscard]] bool tracesRays() const { return description_.tracesRays; }
     // Whether texels are read from storage buffers, because texel buffers are too small or too few.
     [[nodiscard]] bool storesTexels() const { return storesTexels_; }
     // Whether the device gains from work that is submitted before the work ahead of it is done: a GPU, which

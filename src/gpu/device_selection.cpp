@@ -41,6 +41,24 @@ std::string lowerCase(std::string text) {
     return text;
 }
 
+bool hasRayQueries(const vk::raii::PhysicalDevice& physical) {
+    const std::vector<vk::ExtensionProperties> there = physical.enumerateDeviceExtensionProperties();
+    const auto isThere = [&](std::string_view name) {
+        return std::ranges::any_of(
+            there, [&](const vk::ExtensionProperties& one) { return name == one.extensionName.data(); });
+    };
+    if (!std::ranges::all_of(kRayExtensions, isThere))
+        return false;
+    const auto features =
+        physical.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceBufferDeviceAddressFeatures,
+                              vk::PhysicalDeviceAccelerationStructureFeaturesKHR,
+                              vk::PhysicalDeviceRayQueryFeaturesKHR>();
+    return features.get<vk::PhysicalDeviceBufferDeviceAddressFeatures>().bufferDeviceAddress == VK_TRUE &&
+           features.get<vk::PhysicalDeviceAccelerationStructureFeaturesKHR>().accelerationStructure ==
+               VK_TRUE &&
+           features.get<vk::PhysicalDeviceRayQueryFeaturesKHR>().rayQuery == VK_TRUE;
+}
+
 // Why `device` is not what `config` asks for; empty: it is.
 std::vector<std::string> unwanted(const DeviceDescription& device, const DeviceConfig& config) {
     std::vector<std::string> reasons = device.refusals;
@@ -115,6 +133,7 @@ DeviceDescription describeDevice(const vk::raii::PhysicalDevice& physical, uint3
         description.driver = fmt::format("{} {}", driver.driverName.data(), driver.driverInfo.data());
         description.refusals =
             whatIsMissing(properties.limits, chain.get<vk::PhysicalDeviceSubgroupProperties>());
+        description.tracesRays = hasRayQueries(physical);
     }
     if (!findComputeFamily(physical))
         description.refusals.emplace_back("no compute queue");

@@ -1,6 +1,7 @@
 // Which Vulkan devices can render, which cannot and why, and which one to take.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -19,6 +20,11 @@ namespace lavalight::gpu {
 // as many texel buffers.
 constexpr uint32_t kMostStorageBuffers = 8;
 constexpr uint32_t kMostTexelBuffers = 16;
+
+// What a device needs where kernels are to ask it about rays.
+constexpr std::array<const char*, 3> kRayExtensions{VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME,
+                                                    VK_KHR_RAY_QUERY_EXTENSION_NAME,
+                                                    VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME};
 
 // Whether texel buffers of the device are as many and as large as scenes ask for. Where they are not, storage
 // buffers take their place.

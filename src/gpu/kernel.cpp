@@ -12,6 +12,7 @@
 #include "base/error.h"
 #include "base/user_cache.h"
 #include "gpu/texel_storage.h"
+#include "gpu/triangle_structure.h"
 
 namespace lavalight::gpu {
 namespace {
@@ -24,6 +25,8 @@ vk::DescriptorType descriptorType(BindingKind kind) {
         return vk::DescriptorType::eUniformBuffer;
     case BindingKind::uniformTexelBuffer:
         return vk::DescriptorType::eUniformTexelBuffer;
+    case BindingKind::accelerationStructure:
+        return vk::DescriptorType::eAccelerationStructureKHR;
     }
     throw std::logic_error("a binding of an unknown kind");
 }
@@ -109,11 +112,25 @@ Kernel::Kernel(const Device& device, KernelCode code, std::span<const Specialisa
     });
 }
 
-const Buffer& ResourceTable::get(std::string_view name) const {
-    const auto found = buffers_.find(name);
-    if (found == buffers_.end())
-        throw std::logic_error(fmt::format("no buffer is set under the name {}", name));
+namespace {
+
+template <typename Resource>
+const Resource& findIn(const std::map<std::string, const Resource*, std::less<>>& resources,
+                       std::string_view name) {
+    const auto found = resources.find(name);
+    if (found == resources.end())
+        throw std::logic_error(fmt::format("no resource is set under the name {}", name));
     return *found->second;
+}
+
+} // namespace
+
+const Buffer& ResourceTable::get(std::string_view name) const {
+    return findIn(buffers_, name);
+}
+
+const TriangleStructure& ResourceTable::structure(std::string_view name) const {
+    return findIn(structures_, name);
 }
 
 BoundKernel::BoundKernel(const Device& device, const Kernel& kernel, const ResourceTable& resources)
@@ -122,17 +139,23 @@ BoundKernel::BoundKernel(const Device& device, const Kernel& kernel, const Resou
     std::vector<vk::DescriptorPoolSize> sizes;
     std::vector<vk::DescriptorBufferInfo> buffers(bindings.size());
     std::vector<vk::BufferView> views(bindings.size());
+    std::vector<vk::AccelerationStructureKHR> handles(bindings.size());
+    std::vector<vk::WriteDescriptorSetAccelerationStructureKHR> structures(bindings.size());
     std::vector<vk::WriteDescriptorSet> writes;
     for (size_t i = 0; i < bindings.size(); ++i) {
-        const Buffer& buffer = resources.get(bindings[i].name);
+        const std::string& name = bindings[i].name;
         const vk::DescriptorType type = descriptorType(bindings[i].kind);
         sizes.emplace_back(type, 1);
         vk::WriteDescriptorSet write({}, bindings[i].binding, 0, 1, type);
         if (bindings[i].kind == BindingKind::uniformTexelBuffer) {
-            views[i] = buffer.texelView();
+            views[i] = resources.get(name).texelView();
             write.setTexelBufferView(views[i]);
+        } else if (bindings[i].kind == BindingKind::accelerationStructure) {
+            handles[i] = resources.structure(name).handle();
+            structures[i].setAccelerationStructures(handles[i]);
+            write.setPNext(&structures[i]);
         } else {
-            buffers[i] = vk::DescriptorBufferInfo(buffer.handle(), 0, VK_WHOLE_SIZE);
+            buffers[i] = vk::DescriptorBufferInfo(resources.get(name).handle(), 0, VK_WHOLE_SIZE);
             write.setBufferInfo(buffers[i]);
         }
         writes.push_back(write);

@@ -17,6 +17,8 @@
 
 namespace lavalight::gpu {
 
+class TriangleStructure;
+
 // A compiled pipeline. Immutable after construction.
 class Kernel {
   public:
@@ -37,18 +39,23 @@ class Kernel {
     vk::raii::Pipeline pipeline_ = nullptr;
 };
 
-// Buffers under the names that kernels declare them by. The buffers must outlive the table and what is bound
-// from it.
+// Buffers and acceleration structures under the names that kernels declare them by. They must outlive the
+// table and what is bound from it.
 class ResourceTable {
   public:
     void set(std::string_view name, const Buffer& buffer) {
         buffers_.insert_or_assign(std::string(name), &buffer);
     }
-    // Throws std::logic_error for a name that was never set: a bug in the caller.
+    void set(std::string_view name, const TriangleStructure& structure) {
+        structures_.insert_or_assign(std::string(name), &structure);
+    }
+    // Both throw std::logic_error for a name that was never set: a bug in the caller.
     [[nodiscard]] const Buffer& get(std::string_view name) const;
+    [[nodiscard]] const TriangleStructure& structure(std::string_view name) const;
 
   private:
     std::map<std::string, const Buffer*, std::less<>> buffers_;
+    std::map<std::string, const TriangleStructure*, std::less<>> structures_;
 };
 
 // A kernel with its descriptor set filled from a table by the names in the shader. The kernel must outlive

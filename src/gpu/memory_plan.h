@@ -14,6 +14,8 @@ enum class BufferUse {
     readback, // as storage, but mapped, for the few words that the host reads after each submission
     uniform,  // a few words that every invocation reads alike, at most 16 KiB
     texels,   // read by kernels as RGBA32UI texels (16 bytes an element) through a uniform texel view
+    corners,  // as texels, and read by the device where it builds an acceleration structure, if it has those
+    structure // an acceleration structure, and what the device builds it with
 };
 
 struct MemoryPlan {

@@ -48,21 +48,24 @@ void initialiseGlslang() {
 }
 
 // glslang 15 (Debian 13) hides TType. Vulkan's own rules say as much: every block but push constants has a
-// binding, and a uniform outside all blocks is a texel buffer.
+// binding, and a uniform outside all blocks is a texel buffer or an acceleration structure. OpenGL has a type
+// for the former alone.
 bool isPushConstant(const glslang::TObjectReflection& block) {
     return block.getBinding() < 0;
 }
-bool isTexelBuffer(const glslang::TObjectReflection& uniform) {
+bool isOutsideBlocks(const glslang::TObjectReflection& uniform) {
     return uniform.index < 0;
+}
+BindingKind kindOf(const glslang::TObjectReflection& uniform) {
+    return uniform.glDefineType == 0 ? BindingKind::accelerationStructure : BindingKind::uniformTexelBuffer;
 }
 
 std::vector<KernelBinding> reflectBindings(const glslang::TProgram& program) {
     std::vector<KernelBinding> bindings;
     for (int i = 0; i < program.getNumUniformVariables(); ++i) {
         const glslang::TObjectReflection& uniform = program.getUniform(i);
-        if (isTexelBuffer(uniform))
-            bindings.push_back(
-                {uniform.name, static_cast<uint32_t>(uniform.getBinding()), BindingKind::uniformTexelBuffer});
+        if (isOutsideBlocks(uniform))
+            bindings.push_back({uniform.name, static_cast<uint32_t>(uniform.getBinding()), kindOf(uniform)});
     }
     for (int i = 0; i < program.getNumBufferBlocks(); ++i) {
         const glslang::TObjectReflection& block = program.getBufferBlock(i);

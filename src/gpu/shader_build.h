@@ -11,10 +11,10 @@
 
 namespace lavalight::gpu {
 
-enum class BindingKind { storageBuffer, uniformBuffer, uniformTexelBuffer };
+enum class BindingKind { storageBuffer, uniformBuffer, uniformTexelBuffer, accelerationStructure };
 
 // One resource of a kernel, in descriptor set 0. `name` is the block's name for storage and uniform buffers
-// and the variable's name for texel buffers.
+// and the variable's name for texel buffers and acceleration structures.
 struct KernelBinding {
     std::string name;
     uint32_t binding = 0;

@@ -45,9 +45,7 @@ struct ShaderRays {
 
 namespace {
 
-// A ray on its way through Embree, which asks about every triangle that it finds. Embree proposes; the test
-// of the kernels decides where a triangle is met, and which comes first. So the host finds what kernels find,
-// but where a ray meets an edge so exactly that the two tests differ about its side.
+// A ray on its way through Embree, which asks about every triangle that it finds.
 struct Query {
 #if RTC_VERSION_MAJOR >= 4
     RTCRayQueryContext context;
@@ -57,74 +55,22 @@ struct Query {
     ShaderRays* shader;
     const ShaderRays::RayFilter* ignored;
     ShaderRays::ShearedRay ray;
-    Hit nearest;       // the nearest so far; at first at tMax
-    SurfaceId surface; // its surface; none precedes the first: what is met at tMax does not count
-
-    // Takes the triangle for the nearest; false: it is not, or lets the ray through.
-    [[nodiscard]] bool accepts(const RTCFilterFunctionNArguments& asked) {
-        const SurfaceId met{RTCHitN_primID(asked.hit, 1, 0)};
-        // passesThrough() would say so below, but most rays are offered the triangle that they start on.
-        if (isSameSurface(met, ignored->firstSurface) || isSameSurface(met, ignored->secondSurface))
-            return false;
-        const TriangleRecord triangle = shader->loadTriangle(met.primitive);
-        const ShaderRays::TriangleHit at = whereMet(asked, triangle);
-        if (!(at.t > 0.0f) || !shader->comesFirst(at.t, met, nearest.t, surface) || letsThrough(triangle, at))
-            return false;
-        nearest = {at.t, met.primitive, at.barycentrics};
-        surface = met;
-        return true;
-    }
-
-  private:
-    [[nodiscard]] ShaderRays::TriangleHit whereMet(const RTCFilterFunctionNArguments& asked,
-                                                   const TriangleRecord& triangle) const {
-        ShaderRays::TriangleHit at;
-        if (shader->intersectTriangle(ray, triangle.v0, triangle.v1, triangle.v2, at))
-            return at;
-        vec3 weights(1.0f - at.barycentrics.x - at.barycentrics.y, at.barycentrics);
-        if (at.t <= 0.0f && all(greaterThan(weights, vec3(-1e-5f))))
-            return at;                                           // behind the origin, or at it
-        if (!std::isfinite(weights.x + weights.y + weights.z)) { // our test sees the triangle as a line
-            const vec2 b(RTCHitN_u(asked.hit, 1, 0), RTCHitN_v(asked.hit, 1, 0));
-            weights = vec3(1.0f - b.x - b.y, b);
-        }
-        // The two tests differ about the side of an edge: the nearest point of the triangle. Without this, a
-        // triangle that is seen from its edge would be met far beside itself.
-        weights = max(weights, vec3(0.0f));
-        weights /= weights.x + weights.y + weights.z;
-        at.barycentrics = yz(weights);
-        at.t = dot(weights,
-                   vec3(shader->shearCorner(ray, triangle.v0).z, shader->shearCorner(ray, triangle.v1).z,
-                        shader->shearCorner(ray, triangle.v2).z));
-        return at;
-    }
-
-    [[nodiscard]] bool letsThrough(const TriangleRecord& triangle, const ShaderRays::TriangleHit& at) const {
-        if (shader->passesThrough(*ignored, triangle, at.front))
-            return true;
-        const vec3 b(1.0f - at.barycentrics.x - at.barycentrics.y, at.barycentrics);
-        return shader->has(kFeatureAlpha) && (triangle.material & kAlphaBit) != 0u &&
-               shader->letsThrough(triangle, b, ignored->alphaSeed);
-    }
+    ShaderRays::NearestHit nearest; // so far
 };
-
-// Embree's distances differ from ours: by roundings, on slivers by up to 1e-4. What is a little beyond the
-// nearest may come before it.
-float withMargin(float t) {
-    return t * 1.0002f;
-}
 
 void filter(const RTCFilterFunctionNArguments* asked) {
     if (asked->valid[0] != -1)
         return;
     Query& query = *reinterpret_cast<Query*>(asked->context);
-    if (query.accepts(*asked))
-        RTCRayN_tfar(asked->ray, 1, 0) = withMargin(query.nearest.t);
+    const vec2 proposed(RTCHitN_u(asked->hit, 1, 0), RTCHitN_v(asked->hit, 1, 0));
+    if (query.shader->takesProposed(query.ray, RTCHitN_primID(asked->hit, 1, 0), proposed, *query.ignored,
+                                    query.nearest))
+        RTCRayN_tfar(asked->ray, 1, 0) = query.shader->withMargin(query.nearest.hit.t);
     else
         asked->valid[0] = 0;
 }
 
-RTCRay toEmbree(vec3 origin, vec3 direction, float tMax) {
+RTCRay toEmbree(vec3 origin, vec3 direction, float end) {
     RTCRay ray;
     ray.org_x = origin.x;
     ray.org_y = origin.y;
@@ -133,7 +79,7 @@ RTCRay toEmbree(vec3 origin, vec3 direction, float tMax) {
     ray.dir_y = direction.y;
     ray.dir_z = direction.z;
     ray.tnear = 0.0f;
-    ray.tfar = withMargin(tMax);
+    ray.tfar = end;
     ray.time = 0.0f;
     ray.mask = ~0u;
     ray.id = 0;
@@ -153,7 +99,7 @@ bool isTraceable(vec3 origin, vec3 direction) {
 
 Query makeQuery(ShaderRays& shader, vec3 origin, vec3 direction, float tMax,
                 const ShaderRays::RayFilter& ignored) {
-    Query query{{}, &shader, &ignored, shader.shearRay(origin, direction), {tMax, 0, vec2(0.0f)}, {0}};
+    Query query{{}, &shader, &ignored, shader.shearRay(origin, direction), shader.nothingBefore(tMax)};
 #if RTC_VERSION_MAJOR >= 4
     rtcInitRayQueryContext(&query.context);
 #else
@@ -199,14 +145,14 @@ void occlude(RTCScene scene, Query& query, RTCRay& ray) {
 bool ShaderRays::intersectClosest(vec3 origin, vec3 direction, float tMax, RayFilter ignored, Hit& hit) {
     Query query = makeQuery(*this, origin, direction, tMax, ignored);
     if (!isTraceable(origin, direction)) {
-        hit = query.nearest;
+        hit = query.nearest.hit;
         return false;
     }
     RTCRayHit ray;
-    ray.ray = toEmbree(origin, direction, tMax);
+    ray.ray = toEmbree(origin, direction, withMargin(tMax));
     ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     intersect(embree, query, ray);
-    hit = query.nearest;
+    hit = query.nearest.hit;
     return ray.hit.geomID != RTC_INVALID_GEOMETRY_ID;
 }
 
@@ -214,7 +160,7 @@ bool ShaderRays::intersectAny(vec3 origin, vec3 direction, float tMax, RayFilter
     if (!isTraceable(origin, direction))
         return false;
     Query query = makeQuery(*this, origin, direction, tMax, ignored);
-    RTCRay ray = toEmbree(origin, direction, tMax);
+    RTCRay ray = toEmbree(origin, direction, withMargin(tMax));
     occlude(embree, query, ray);
     return ray.tfar < 0.0f; // Embree's mark of an occluded ray
 }

@@ -12,8 +12,10 @@
 namespace lavalight {
 namespace {
 
-bool isHosted(const Renderer& renderer) {
-    return renderer.scene().accelerator().embree() != nullptr;
+// The kernel that follows a path with the accelerator.
+std::string kernelFor(AcceleratorKind accelerator) {
+    return accelerator == AcceleratorKind::embree ? "hosted/trace_path"
+                                                  : textOf({"trace_path", kernelAccelerator(accelerator)});
 }
 
 } // namespace
@@ -68,11 +70,12 @@ class PathInspector::State {
 PathInspector::PathInspector(gpu::Device& device, const Renderer& renderer, const KernelSource& source)
     : device_(&device),
       constants_(renderer.kernels().constants().begin(), renderer.kernels().constants().end()),
-      isHosted_(isHosted(renderer)),
-      kernel_(device, source(isHosted_ ? "hosted/trace_path" : "trace_path"), constants_) {}
+      accelerator_(renderer.scene().accelerator().kind()),
+      kernel_(device, source(kernelFor(accelerator_)), constants_) {}
 
 bool PathInspector::serves(const Renderer& renderer) const {
-    return std::ranges::equal(constants_, renderer.kernels().constants()) && isHosted_ == isHosted(renderer);
+    return std::ranges::equal(constants_, renderer.kernels().constants()) &&
+           accelerator_ == renderer.scene().accelerator().kind();
 }
 
 // The vertex where the path's ray meets the scene.
@@ -109,7 +112,7 @@ TracedPath PathInspector::trace(const Renderer& renderer, const glm::uvec2& pixe
     range.pixelCount = range.sampleCount = 1;
     range.firstSample = sample;
     do {
-        if (isHosted_) {
+        if (accelerator_ == AcceleratorKind::embree) {
             result.vertices.push_back(traceByHost(renderer, state, range));
         } else {
             state.run(range);

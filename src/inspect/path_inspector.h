@@ -40,7 +40,7 @@ class PathInspector {
 
     gpu::Device* device_;
     std::vector<gpu::SpecialisationConstant> constants_;
-    bool isHosted_;
+    AcceleratorKind accelerator_;
     gpu::Kernel kernel_;
 };
 

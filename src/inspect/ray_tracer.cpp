@@ -17,12 +17,13 @@
 namespace lavalight {
 namespace {
 
-gpu::Kernel makeKernel(const gpu::Device& device, std::string_view name, bool countsVisits) {
+gpu::Kernel makeKernel(const gpu::Device& device, std::string_view file, AcceleratorKind accelerator,
+                       bool countsVisits) {
     // No features: all surfaces are opaque to these rays.
     const auto [first, second] = featureConstants(0);
     const std::array<gpu::SpecialisationConstant, 3> constants{
         {{CONSTANT_COUNT_VISITS, countsVisits ? 1u : 0u}, first, second}};
-    return {device, embeddedKernel(name), constants};
+    return {device, embeddedKernel(textOf({file, kernelAccelerator(accelerator)})), constants};
 }
 
 } // namespace
@@ -32,8 +33,8 @@ RayTracer::RayTracer(gpu::Device& device, const GpuScene& scene, bool countsVisi
       visits_(device, "visit counts", sizeof(VisitCounts), gpu::BufferUse::readback) {
     if (scene.accelerator().embree() != nullptr)
         return;
-    closest_ = makeKernel(device, "trace_closest", countsVisits);
-    any_ = makeKernel(device, "trace_any", countsVisits);
+    closest_ = makeKernel(device, "trace_closest", scene.accelerator().kind(), countsVisits);
+    any_ = makeKernel(device, "trace_any", scene.accelerator().kind(), countsVisits);
 }
 
 // Answers trace(rays, ray) for each ray, on all processors.

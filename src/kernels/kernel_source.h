@@ -8,8 +8,9 @@
 
 namespace lavalight {
 
-// The kernel of a name, which is its path below shaders/kernels/ without the extension: "path", "lab/dice".
-// Throws Error for one that there is not, or that does not compile.
+// The kernel of a name, which is its path below shaders/kernels/ without the extension: "path", "lab/dice";
+// with another accelerator than bvh8 "path@ray_query" (kernels/accelerator_name.h). Throws Error for one that
+// there is not, or that does not compile.
 using KernelSource = std::function<gpu::KernelCode(std::string_view name)>;
 
 // The kernels that the build compiled.

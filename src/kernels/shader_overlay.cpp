@@ -27,15 +27,24 @@ bool isShaderFile(const fs::path& path) {
     return path.extension() == ".glsl" || path.extension() == ".comp" || path.extension() == ".h";
 }
 
-std::string kernelPath(std::string_view name) {
-    return fmt::format("kernels/{}.comp", name);
+constexpr std::string_view kKernels = "kernels/";
+constexpr std::string_view kExtension = ".comp";
+
+std::string kernelPath(std::string_view file) {
+    return fmt::format("{}{}{}", kKernels, file, kExtension);
 }
 
-std::vector<std::string> includesOf(const std::string& text) {
+std::string_view fileOfKernel(std::string_view path) {
+    path.remove_prefix(kKernels.size());
+    path.remove_suffix(kExtension.size());
+    return path;
+}
+
+std::vector<std::string> includesOf(const std::string& text, std::string_view accelerator) {
     static const std::regex include(R"re(^[ \t]*#[ \t]*include[ \t]*"([^"\n]+)")re", std::regex::multiline);
     std::vector<std::string> paths;
     for (std::sregex_iterator match(text.begin(), text.end(), include), end; match != end; ++match)
-        paths.push_back(includedFile(fs::path((*match)[1].str()).lexically_normal().string()));
+        paths.push_back(includedFile(fs::path((*match)[1].str()).lexically_normal().string(), accelerator));
     return paths;
 }
 
@@ -86,26 +95,28 @@ std::optional<gpu::ShaderText> ShaderOverlay::find(const std::string& path) cons
 }
 
 // The kernel's own file first.
-std::vector<std::string> ShaderOverlay::filesOf(const std::string& kernelPath) const {
-    std::vector<std::string> files{kernelPath};
+std::vector<std::string> ShaderOverlay::filesOf(const KernelName& name) const {
+    std::vector<std::string> files{kernelPath(name.file)};
     for (size_t i = 0; i < files.size(); ++i)
         if (const auto file = find(files[i]))
-            for (const std::string& path : includesOf(file->text))
+            for (const std::string& path : includesOf(file->text, name.accelerator))
                 if (std::find(files.begin(), files.end(), path) == files.end())
                     files.push_back(path);
     return files;
 }
 
 gpu::KernelCode ShaderOverlay::compile(std::string_view name) const {
-    const std::string path = kernelPath(name);
-    const std::vector<std::string> files = filesOf(path);
+    const KernelName parsed = parseKernelName(name);
+    const std::string path = kernelPath(parsed.file);
+    const std::vector<std::string> files = filesOf(parsed);
     if (std::none_of(files.begin(), files.end(), [&](const auto& file) { return texts_.contains(file); }))
         return embeddedKernel(name);
     const auto source = find(path);
     if (!source)
         throw Error(fmt::format("there is no kernel {}", path));
-    gpu::KernelCode compiled = gpu::compileKernel(
-        *source, [this](const std::string& included) { return find(includedFile(included)); });
+    gpu::KernelCode compiled = gpu::compileKernel(*source, [&](const std::string& included) {
+        return find(includedFile(included, parsed.accelerator));
+    });
     gpu::KernelCode embedded = embeddedKernel(name);
     return compiled.content == embedded.content ? embedded
                                                 : compiled; // only comments differ: the inlined one
@@ -128,9 +139,10 @@ std::vector<std::string> ShaderOverlay::changed() const {
 std::vector<std::string> ShaderOverlay::unused() const {
     std::set<std::string> used;
     for (const std::string& path : embeddedShaderPaths())
-        if (path.starts_with("kernels/"))
-            for (const std::string& file : filesOf(path))
-                used.insert(file);
+        if (path.starts_with(kKernels))
+            for (const std::string_view accelerator : kKernelAccelerators)
+                for (const std::string& file : filesOf({fileOfKernel(path), accelerator}))
+                    used.insert(file);
     std::vector<std::string> paths = changed();
     std::erase_if(paths, [&](const std::string& path) { return used.contains(path); });
     return paths;

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "gpu/shader_build.h"
+#include "kernels/accelerator_name.h"
 #include "kernels/kernel_source.h"
 
 namespace lavalight {
@@ -38,7 +39,7 @@ class ShaderOverlay {
 
   private:
     [[nodiscard]] std::optional<gpu::ShaderText> find(const std::string& path) const;
-    [[nodiscard]] std::vector<std::string> filesOf(const std::string& kernelPath) const;
+    [[nodiscard]] std::vector<std::string> filesOf(const KernelName& name) const;
     [[nodiscard]] gpu::KernelCode compile(std::string_view name) const;
 
     std::map<std::string, gpu::ShaderText> texts_;                // texts of the changed files, by path

@@ -43,12 +43,12 @@ std::string_view ofLayers(std::span<const Phase> phases, std::string_view kernel
 } // namespace
 
 std::vector<KernelVariant> kernelVariants(std::span<const Phase> phases, Schedule schedule,
-                                          const MaterialClasses& classes) {
+                                          const MaterialClasses& classes, std::string_view accelerator) {
     std::vector<KernelVariant> variants;
     for (const std::string_view kernel : kernelNames(phases, schedule)) {
         const auto scatters = [&](const Phase& phase) { return phase.transport->hosted.scatter == kernel; };
         if (schedule != Schedule::hosted || std::none_of(phases.begin(), phases.end(), scatters))
-            variants.push_back({std::string(kernel), kernel, 0, ofLayers(phases, kernel)});
+            variants.push_back({std::string(kernel), kernel, 0, ofLayers(phases, kernel), accelerator});
         else
             for (const MaterialClass& materials : classes.list)
                 variants.push_back({variantName(kernel, materials), kernel, materials.without});
@@ -75,6 +75,10 @@ std::string_view EstimatorKernels::fileOf(const KernelVariant& variant) const {
     return hasLayers && !variant.ofLayers.empty() ? variant.ofLayers : variant.kernel;
 }
 
+std::string EstimatorKernels::sourceName(const KernelVariant& variant) const {
+    return textOf({fileOf(variant), variant.accelerator});
+}
+
 std::vector<gpu::SpecialisationConstant> EstimatorKernels::constantsOf(const KernelVariant& variant) const {
     // Records are laid out by the features of the whole scene.
     std::vector<gpu::SpecialisationConstant> constants =
@@ -88,7 +92,7 @@ KernelMap EstimatorKernels::compile(gpu::Device& device, std::span<const KernelV
                                     const KernelSource& source) const {
     std::vector<gpu::KernelCode> codes; // in order, so that of several with errors the same one throws
     for (const KernelVariant* variant : variants)
-        codes.push_back(source(fileOf(*variant)));
+        codes.push_back(source(sourceName(*variant)));
     std::vector<std::optional<gpu::Kernel>> built(variants.size());
     forEachInParallel(variants.size(), [&](size_t i) {
         built[i].emplace(device, std::move(codes[i]), constantsOf(*variants[i]));
@@ -112,7 +116,7 @@ std::vector<std::string> EstimatorKernels::changed(const KernelSource& source) c
 }
 
 bool EstimatorKernels::isChanged(const KernelVariant& variant, const KernelSource& source) const {
-    return source(fileOf(variant)).content != (*this)[variant.name].code().content;
+    return source(sourceName(variant)).content != (*this)[variant.name].code().content;
 }
 
 KernelMap EstimatorKernels::compileChanged(gpu::Device& device, const KernelSource& source) const {

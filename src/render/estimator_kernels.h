@@ -11,6 +11,7 @@
 
 #include "device_scene/material_classes.h"
 #include "gpu/kernel.h"
+#include "kernels/accelerator_name.h"
 #include "kernels/kernel_source.h"
 #include "render/phase.h"
 #include "render/settings.h"
@@ -29,12 +30,15 @@ struct KernelVariant {
     std::string_view kernel;     // its file in shaders/kernels, without .comp; lasts as long as the program
     SceneFeatures without = 0;   // features of the scene that it does not need
     std::string_view ofLayers{}; // the file in its place where films have layers; empty: the same
+    std::string_view accelerator = kBvh8; // with which it traces, if it traces
     bool operator==(const KernelVariant&) const = default;
 };
 
-// The variants that the phases run, each once. `classes`: of the scene's materials, for Schedule::hosted.
+// The variants that the phases run, each once. `classes`: of the scene's materials, for Schedule::hosted;
+// `accelerator`: one of kKernelAccelerators.
 [[nodiscard]] std::vector<KernelVariant> kernelVariants(std::span<const Phase> phases, Schedule schedule,
-                                                        const MaterialClasses& classes);
+                                                        const MaterialClasses& classes,
+                                                        std::string_view accelerator = kBvh8);
 // The name of the variant of a kernel for a class.
 [[nodiscard]] std::string variantName(std::string_view kernel, const MaterialClass& materials);
 
@@ -73,6 +77,8 @@ class EstimatorKernels {
   private:
     // The file in shaders/kernels that a variant is compiled of.
     [[nodiscard]] std::string_view fileOf(const KernelVariant& variant) const;
+    // The name by which a source knows it.
+    [[nodiscard]] std::string sourceName(const KernelVariant& variant) const;
     [[nodiscard]] bool isChanged(const KernelVariant& variant, const KernelSource& source) const;
     [[nodiscard]] std::vector<gpu::SpecialisationConstant> constantsOf(const KernelVariant& variant) const;
     // On all processors. Throws Error as `source` does.

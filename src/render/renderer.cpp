@@ -61,7 +61,8 @@ Film makeFilm(gpu::Device& device, const RenderSettings& settings) {
 }
 
 std::vector<KernelVariant> variantsFor(const RenderSettings& settings, const MaterialClasses& classes) {
-    return kernelVariants(phasesOf(settings), settings.work.schedule, classes);
+    return kernelVariants(phasesOf(settings), settings.work.schedule, classes,
+                          kernelAccelerator(acceleratorOf(settings)));
 }
 
 } // namespace

@@ -1,7 +1,8 @@
 #include "render/schedule_choice.h"
 
 #include <algorithm>
-#include <cassert>
+#include <span>
+#include <stdexcept>
 
 #include <fmt/format.h>
 
@@ -24,22 +25,56 @@ constexpr uint32_t kMostRecords = (1u << 27) / (kPlanesOut * sizeof(glm::uvec4))
 // The schedule that takes over where kernels must trace on a CPU.
 constexpr Schedule kInsteadOfHosted = Schedule::fused;
 
+void requireRayQueries(RayAccelerator accelerator, const gpu::DeviceDescription& device) {
+    if (accelerator == RayAccelerator::rayQuery && !device.tracesRays)
+        throw Error(fmt::format("cannot use the accelerator ray-query: {} has no VK_KHR_ray_query; try "
+                                "--accelerator auto",
+                                device.name));
+}
+
+void requireHostedMemory(const char* what, std::string_view name, const char* instead,
+                         const gpu::DeviceDescription& device) {
+    if (!device.sharesMemory)
+        throw Error(fmt::format("cannot use the {} {}: the host does not reach the memory of {}; try {}",
+                                what, name, device.name, instead));
+}
+
+void requireFits(RayAccelerator accelerator, Schedule schedule) {
+    const bool isHosted = schedule == Schedule::hosted;
+    if (accelerator == RayAccelerator::automatic || (accelerator == RayAccelerator::embree) == isHosted)
+        return;
+    throw Error(fmt::format("cannot use the accelerator {} with the schedule {}: {}; try --schedule {}",
+                            nameOf(accelerator), nameOf(schedule),
+                            isHosted ? "Embree traces its rays" : "kernels trace its rays",
+                            isHosted ? nameOf(Schedule::fused) : nameOf(Schedule::hosted)));
+}
+
 } // namespace
 
 RenderSettings resolveSchedule(RenderSettings settings, const gpu::DeviceDescription& device,
                                const KernelSource& source) {
     Schedule& schedule = settings.work.schedule;
-    if (schedule == Schedule::hosted && !device.sharesMemory)
-        throw Error(
-            fmt::format("cannot use the schedule hosted: the host does not reach the memory of {}; try "
-                        "--schedule auto",
-                        device.name));
+    RayAccelerator& accelerator = settings.work.accelerator;
+    requireRayQueries(accelerator, device);
+    const bool mayBeHosted =
+        accelerator == RayAccelerator::automatic || accelerator == RayAccelerator::embree;
+    if (schedule == Schedule::hosted)
+        requireHostedMemory("schedule", nameOf(schedule), "--schedule auto", device);
+    if (accelerator == RayAccelerator::embree)
+        requireHostedMemory("accelerator", nameOf(accelerator), "--accelerator auto", device);
     if (schedule == Schedule::automatic)
-        schedule = device.sharesMemory ? Schedule::hosted
-                   : device.isCpu      ? Schedule::fused
-                                       : Schedule::wavefront;
-    if (schedule == Schedule::hosted && !tracesAsHost(source))
+        schedule = device.sharesMemory && mayBeHosted ? Schedule::hosted
+                   : device.isCpu                     ? Schedule::fused
+                                                      : Schedule::wavefront;
+    requireFits(accelerator, schedule);
+    if (schedule == Schedule::hosted && !tracesAsHost(source)) {
         schedule = kInsteadOfHosted;
+        accelerator = RayAccelerator::automatic;
+    }
+    if (accelerator == RayAccelerator::automatic)
+        accelerator = schedule == Schedule::hosted         ? RayAccelerator::embree
+                      : device.tracesRays && !device.isCpu ? RayAccelerator::rayQuery
+                                                           : RayAccelerator::bvh8;
     if (settings.work.waveSize == 0)
         settings.work.waveSize = kWaveSize;
     if (schedule == Schedule::hosted)
@@ -50,7 +85,9 @@ RenderSettings resolveSchedule(RenderSettings settings, const gpu::DeviceDescrip
 std::string whyNotHosted(const RenderSettings& asked, const gpu::DeviceDescription& device,
                          const KernelSource& source) {
     const bool mayBeHosted =
-        asked.work.schedule == Schedule::hosted || asked.work.schedule == Schedule::automatic;
+        (asked.work.schedule == Schedule::hosted || asked.work.schedule == Schedule::automatic) &&
+        (asked.work.accelerator == RayAccelerator::automatic ||
+         asked.work.accelerator == RayAccelerator::embree);
     if (!mayBeHosted || !device.sharesMemory || tracesAsHost(source))
         return {};
     return fmt::format("edited shaders take part in tracing rays, and the host does not know of them: the "
@@ -58,19 +95,32 @@ std::string whyNotHosted(const RenderSettings& asked, const gpu::DeviceDescripti
                        nameOf(kInsteadOfHosted), nameOf(Schedule::hosted));
 }
 
-std::vector<std::string_view> decisiveKernels(const RenderSettings& settings) {
-    std::vector<std::string_view> names = kernelNames(settings);
-    if (settings.work.schedule != Schedule::hosted)
-        return names;
-    names.insert(names.end(), kTracingKernels.begin(), kTracingKernels.end());
-    const std::vector<std::string_view> instead = kernelNames(phasesOf(settings), kInsteadOfHosted);
-    names.insert(names.end(), instead.begin(), instead.end());
+std::vector<std::string> decisiveKernels(const RenderSettings& settings) {
+    std::vector<std::string> names;
+    const auto add = [&](std::span<const std::string_view> files, AcceleratorKind kind) {
+        for (const std::string_view file : files)
+            names.push_back(textOf({file, kernelAccelerator(kind)}));
+    };
+    add(kernelNames(settings), acceleratorOf(settings));
+    if (settings.work.schedule == Schedule::hosted) {
+        add(kTracingKernels, AcceleratorKind::bvh8);
+        add(kernelNames(phasesOf(settings), kInsteadOfHosted), AcceleratorKind::bvh8);
+    }
     return names;
 }
 
 AcceleratorKind acceleratorOf(const RenderSettings& settings) {
-    assert(settings.work.schedule != Schedule::automatic);
-    return settings.work.schedule == Schedule::hosted ? AcceleratorKind::embree : AcceleratorKind::bvh8;
+    switch (settings.work.accelerator) {
+    case RayAccelerator::embree:
+        return AcceleratorKind::embree;
+    case RayAccelerator::rayQuery:
+        return AcceleratorKind::rayQuery;
+    case RayAccelerator::bvh8:
+        return AcceleratorKind::bvh8;
+    case RayAccelerator::automatic:
+        break;
+    }
+    throw std::logic_error("an accelerator that is not resolved");
 }
 
 } // namespace lavalight

@@ -12,10 +12,10 @@
 
 namespace lavalight {
 
-// Fills in the schedule and the wave size where the settings leave them to the device. The host traces as the
-// embedded kernels do: where `source` has others, Schedule::hosted becomes Schedule::fused. Its waves have at
-// most 931,919 slots. Throws Error where Schedule::hosted is asked for and the device does not share its
-// memory, and as `source` does.
+// Fills in schedule, accelerator and wave size where the settings leave them to the device. The host traces
+// as the embedded kernels do: where `source` has others, Schedule::hosted becomes Schedule::fused. Its waves
+// have at most 931,919 slots. Throws Error where Schedule::hosted is asked for and the device does not share
+// its memory, where the accelerator is not one of the schedule's or the device's, and as `source` does.
 [[nodiscard]] RenderSettings resolveSchedule(RenderSettings settings, const gpu::DeviceDescription& device,
                                              const KernelSource& source = embeddedKernel);
 
@@ -24,10 +24,10 @@ namespace lavalight {
                                        const KernelSource& source);
 
 // Names of the kernels on which an image depends: for Schedule::hosted also those that the host replaces, and
-// those of the schedule that takes over. The schedule must not be automatic.
-[[nodiscard]] std::vector<std::string_view> decisiveKernels(const RenderSettings& settings);
+// those of the schedule that takes over. The settings must be resolved.
+[[nodiscard]] std::vector<std::string> decisiveKernels(const RenderSettings& settings);
 
-// The schedule must not be automatic.
+// The settings must be resolved.
 [[nodiscard]] AcceleratorKind acceleratorOf(const RenderSettings& settings);
 
 } // namespace lavalight

@@ -9,6 +9,10 @@ constexpr std::array<SettingName<Schedule>, 4> kSchedules{{{"auto", Schedule::au
                                                            {"fused", Schedule::fused},
                                                            {"wavefront", Schedule::wavefront},
                                                            {"hosted", Schedule::hosted}}};
+constexpr std::array<SettingName<RayAccelerator>, 4> kAccelerators{{{"auto", RayAccelerator::automatic},
+                                                                    {"bvh8", RayAccelerator::bvh8},
+                                                                    {"embree", RayAccelerator::embree},
+                                                                    {"ray-query", RayAccelerator::rayQuery}}};
 constexpr std::array<SettingName<ToneCurve>, 4> kToneCurves{{{"neutral", ToneCurve::neutral},
                                                              {"linear", ToneCurve::linear},
                                                              {"agx", ToneCurve::agx},
@@ -31,6 +35,10 @@ constexpr std::array<SettingName<NamedView>, 8> kViews{{{"none", NamedView::none
 template <>
 std::span<const SettingName<Schedule>> settingNames() {
     return kSchedules;
+}
+template <>
+std::span<const SettingName<RayAccelerator>> settingNames() {
+    return kAccelerators;
 }
 template <>
 std::span<const SettingName<ToneCurve>> settingNames() {

@@ -24,6 +24,8 @@ template <typename Value>
 template <>
 std::span<const SettingName<Schedule>> settingNames();
 template <>
+std::span<const SettingName<RayAccelerator>> settingNames();
+template <>
 std::span<const SettingName<ToneCurve>> settingNames();
 template <>
 std::span<const SettingName<ProceduralEnvironment>> settingNames();

@@ -27,6 +27,14 @@ enum class Schedule {
     hosted     // kernels shade, the host traces: for devices that share its memory
 };
 
+// What finds the triangles that rays meet. Bits may differ where they round otherwise.
+enum class RayAccelerator {
+    automatic, // by the schedule and the device
+    bvh8,      // our own tree, traversed by kernels
+    embree,    // Embree's tree, traversed by the host: with the schedule hosted
+    rayQuery   // the device's own tree and traversal (VK_KHR_ray_query), asked by kernels
+};
+
 // The image, and which samples of each pixel are taken, at most StopRule::samples of them.
 struct ImageSettings {
     uint32_t width = 0; // pixels; 0: by the camera's aspect ratio from the height
@@ -53,6 +61,7 @@ struct StopRule {
 // How the work is cut up. Wave size and band rows change no bit of the image.
 struct WorkSettings {
     Schedule schedule = Schedule::automatic;
+    RayAccelerator accelerator = RayAccelerator::automatic;
     uint32_t waveSize = 0; // path slots of a wave; 0: by the schedule
     uint32_t bandRows = 0; // rows of a film band; 0: as many as a storage buffer of the device holds
     bool operator==(const WorkSettings&) const = default;

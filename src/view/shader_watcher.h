@@ -19,7 +19,7 @@ namespace lavalight {
 
 class ShaderWatcher {
   public:
-    using KernelNames = std::vector<std::string_view>; // by decisiveKernels()
+    using KernelNames = std::vector<std::string>; // by decisiveKernels()
 
     // `first`: the folder as it is now. `wake` is called, from another thread, when there is a change. Throws
     // Error where there is no such folder.

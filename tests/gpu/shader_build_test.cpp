@@ -90,7 +90,8 @@ TEST_F(ShaderBuildTest, InliningLeavesOneFunction) {
 // Functions that return early stay. The content is that of the compiled sources.
 TEST_F(ShaderBuildTest, EmbeddedKernelsAreInlinedAndKnownByTheirSources) {
     const std::filesystem::path shaders = std::filesystem::path(LAVALIGHT_SOURCE_DIR) / "shaders";
-    const gpu::KernelCode compiled = gpu::compileKernel(shaders / "kernels/path.comp", shaders, includedFile);
+    const gpu::KernelCode compiled = gpu::compileKernel(
+        shaders / "kernels/path.comp", shaders, [](const std::string& path) { return includedFile(path); });
     const gpu::KernelCode embedded = embeddedKernel("path");
     EXPECT_EQ(embedded.content, compiled.content);
     EXPECT_GT(functionsIn(compiled.spirv), 50u);

@@ -1,6 +1,8 @@
 // Our traversal finds what Embree's finds, on 300,000 triangles and every kind of ray.
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <numeric>
 #include <span>
 #include <vector>
 
@@ -54,12 +56,14 @@ float roundingOfT(const Ray& ray, const Triangle& triangle) {
 struct Dense {
     explicit Dense(gpu::Device& device)
         : scene(makeDenseScene(300000)), triangles(sceneTriangles(scene)), gpuScene(device, packScene(scene)),
-          tracer(device, gpuScene),
-          hostScene(device, packScene(scene, collectLights(scene, scene.environment, LightSelection::power),
-                                      AcceleratorKind::embree)),
+          tracer(device, gpuScene), hostScene(device, packedFor(AcceleratorKind::embree)),
           host(device, hostScene), oracle(triangles, EmbreeOracle::Traversal::robust),
           cameraRays(makeCameraRays(scene.cameras.front(), kRays, 1)), cameraHits(tracer.closest(cameraRays)),
           points(hitPoints(cameraRays, cameraHits, triangles)) {}
+
+    [[nodiscard]] SceneData packedFor(AcceleratorKind accelerator) const {
+        return packScene(scene, collectLights(scene, scene.environment, LightSelection::power), accelerator);
+    }
 
     Scene scene;
     std::vector<Triangle> triangles;
@@ -98,6 +102,39 @@ class TraverseTest : public DeviceTest {
         EXPECT_GT(hits, rays.size() / 4); // the rays ask something
         EXPECT_LE(static_cast<double>(different), kMayDiffer * static_cast<double>(rays.size()))
             << "of " << rays.size() << " rays with " << hits << " hits";
+    }
+    void expectSameAsKernels(RayTracer& other) {
+        constexpr size_t kAtEdges = 2; // of all rays: where the tests differ about the side of an edge
+        RayTracer& kernels = dense().tracer;
+        const auto isSame = [](const TracedHit& a, const TracedHit& b) {
+            return a.t == b.t && isSameSurface(a.surface, b.surface);
+        };
+        const auto differences = [&](const std::vector<Ray>& rays) {
+            const std::vector<TracedHit> a = other.closest(rays);
+            const std::vector<TracedHit> b = kernels.closest(rays);
+            return a.size() - static_cast<size_t>(std::transform_reduce(a.begin(), a.end(), b.begin(), 0,
+                                                                        std::plus<>(), isSame));
+        };
+        EXPECT_LE(differences(dense().cameraRays), kAtEdges);
+        EXPECT_LE(differences(makeBounceRays(dense().points, 2)), kAtEdges);
+        const std::vector<ShadowRay> shadows =
+            makeShadowRays(dense().points, dense().scene, dense().triangles, 3);
+        const std::vector<uint32_t> a = other.occluded(shadows);
+        const std::vector<uint32_t> b = kernels.occluded(shadows);
+        EXPECT_LE(std::transform_reduce(a.begin(), a.end(), b.begin(), size_t{0}, std::plus<>(),
+                                        std::not_equal_to<>()),
+                  kAtEdges);
+    }
+    void expectSkipsByIds(RayTracer& tracer) {
+        std::vector<Ray> rays = dense().cameraRays;
+        for (size_t i = 0; i < rays.size(); ++i)
+            rays[i].fromSurface = dense().cameraHits[i].surface;
+        const std::vector<TracedHit> behind = tracer.closest(rays);
+        for (size_t i = 0; i < rays.size(); ++i) {
+            const TracedHit& first = dense().cameraHits[i];
+            ASSERT_TRUE(!isSurface(first.surface) || !isSameSurface(behind[i].surface, first.surface));
+            ASSERT_GE(behind[i].t, first.t);
+        }
     }
 };
 
@@ -146,40 +183,23 @@ TEST_F(TraverseTest, ShadowRaysEndWhereTheirDirectionEnds) {
         ASSERT_EQ(occluded, 1u);
 }
 
-// The host takes what Embree proposes, and decides by the test of the kernels: to the bit.
+// Embree and the device propose triangles, and the test of the kernels decides: to the bit.
 TEST_F(TraverseTest, TheHostFindsWhatKernelsFind) {
-    RayTracer& host = dense().host;
-    const auto differences = [](const std::vector<TracedHit>& a, const std::vector<TracedHit>& b) {
-        size_t count = 0;
-        for (size_t i = 0; i < a.size(); ++i)
-            count += a[i].t != b[i].t || !isSameSurface(a[i].surface, b[i].surface) ? 1 : 0;
-        return count;
-    };
-    constexpr size_t kAtEdges = 2; // of all rays: where the tests differ about the side of an edge
-    const std::vector<Ray> bounces = makeBounceRays(dense().points, 2);
-    EXPECT_LE(differences(host.closest(dense().cameraRays), dense().cameraHits), kAtEdges);
-    EXPECT_LE(differences(host.closest(bounces), dense().tracer.closest(bounces)), kAtEdges);
-    const std::vector<ShadowRay> rays = makeShadowRays(dense().points, dense().scene, dense().triangles, 3);
-    const std::vector<uint32_t> byHost = host.occluded(rays);
-    const std::vector<uint32_t> byKernels = dense().tracer.occluded(rays);
-    size_t different = 0;
-    for (size_t i = 0; i < rays.size(); ++i)
-        different += byHost[i] != byKernels[i] ? 1 : 0;
-    EXPECT_LE(different, kAtEdges);
+    expectSameAsKernels(dense().host);
+}
+
+TEST_F(TraverseTest, TheDeviceFindsWhatKernelsFind) {
+    if (!device().tracesRays())
+        GTEST_SKIP() << "the device has no VK_KHR_ray_query";
+    const GpuScene scene(device(), dense().packedFor(AcceleratorKind::rayQuery));
+    RayTracer tracer(device(), scene);
+    expectSameAsKernels(tracer);
+    expectSkipsByIds(tracer);
 }
 
 TEST_F(TraverseTest, ATriangleIsSkippedByItsId) {
-    std::vector<Ray> rays = dense().cameraRays;
-    for (size_t i = 0; i < rays.size(); ++i)
-        rays[i].fromSurface = dense().cameraHits[i].surface;
-    for (RayTracer* tracer : {&dense().tracer, &dense().host}) {
-        const std::vector<TracedHit> behind = tracer->closest(rays);
-        for (size_t i = 0; i < rays.size(); ++i) {
-            const TracedHit& first = dense().cameraHits[i];
-            ASSERT_TRUE(!isSurface(first.surface) || !isSameSurface(behind[i].surface, first.surface));
-            ASSERT_GE(behind[i].t, first.t);
-        }
-    }
+    expectSkipsByIds(dense().tracer);
+    expectSkipsByIds(dense().host);
 }
 
 } // namespace

@@ -1,5 +1,6 @@
 // Rays aimed exactly at the edges and vertices of closed meshes never leak from the BVH, at any scale and far
-// from the origin, and those aimed at edges not from Embree's trees either.
+// from the origin, and those aimed at edges not from Embree's trees either. What a device promises of its own
+// structures is held, too.
 #include <functional>
 #include <string>
 #include <vector>
@@ -55,6 +56,11 @@ class WatertightTest : public DeviceTest {
     // Fires at every shape at every placement, by each accelerator. `leaks`: how many of the rays leak that
     // it sends to the targets.
     using Leaks = std::function<size_t(const Targets&, const Placement&, RayTracer&)>;
+    // Vulkan wants watertight triangles. lavapipe's are not: of the rays aimed exactly at edges, one in 70
+    // leaks, and one in eight at the vertices of a cube.
+    [[nodiscard]] size_t mostByDevice(const Targets& targets) {
+        return device().description().isCpu ? targets.size() / 4 + 1 : 0;
+    }
     void expectTight(const Leaks& leaks) {
         const Shape shapes[] = {{"cube", makeCube()},
                                 {"gridded cube", makeGriddedCube(16)},
@@ -76,6 +82,12 @@ class WatertightTest : public DeviceTest {
                 RayTracer host(device(), byHost);
                 EXPECT_EQ(leaks(edgePoints, placement, host), 0u) << "rays at edges, by Embree";
                 EXPECT_LE(leaks(vertices, placement, host), vertices.size() / kOneInLeaks) << "by Embree";
+                if (!device().tracesRays())
+                    continue;
+                const GpuScene byDevice(device(), packScene(scene, lights, AcceleratorKind::rayQuery));
+                RayTracer queries(device(), byDevice);
+                for (const Targets& targets : {edgePoints, vertices})
+                    EXPECT_LE(leaks(targets, placement, queries), mostByDevice(targets)) << "by the device";
             }
     }
 };

@@ -89,6 +89,22 @@ TEST_F(Determinism, TheHostGivesThePictureOfTheKernelsButForRounding) {
     }
 }
 
+// The device finds them, too.
+TEST_F(Determinism, RayQueriesGiveThePictureOfOurOwnTreeButForRounding) {
+    if (!device().tracesRays())
+        GTEST_SKIP() << "the device has no VK_KHR_ray_query";
+    for (const char* name : {"cornell-glass", "veach-mis", "nested-glass", "lamps-200", "dense-12000"}) {
+        const Scene scene = loadScene(name);
+        RenderSettings settings = imageSettings(40, 36, 16);
+        settings.work = {.schedule = Schedule::fused, .accelerator = RayAccelerator::bvh8};
+        const RenderResult ours = renderScene(device(), scene, settings);
+        settings.work.accelerator = RayAccelerator::rayQuery;
+        const RenderResult queries = renderScene(device(), scene, settings);
+        EXPECT_LE(shareThatDiffers(ours.rendering, queries.rendering), 0.005) << name;
+        EXPECT_EQ(ours.tallies.cutPaths, queries.tallies.cutPaths) << name;
+    }
+}
+
 // What a scene has not is left out of its kernels: with everything left in, the
 // bits are the same. Not with the colours of vertices, for there are none to
 // multiply, nor with thin films and brushed lobes, whose arithmetic rounds

@@ -1,4 +1,6 @@
 // Ways of working that graphics cards and other drivers need, tried on the device at hand: the bits stay.
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include "render/renderer.h"
@@ -17,8 +19,11 @@ class DeviceMemory : public DeviceTest {
         for (const char* name : {"cornell-glass", "many-lights"}) {
             const Scene scene = loadScene(name);
             RenderSettings settings = imageSettings(24, 20, 4);
-            for (const Schedule schedule : {Schedule::fused, Schedule::wavefront}) {
-                settings.work.schedule = schedule;
+            std::vector<WorkSettings> ways{{.schedule = Schedule::fused}, {.schedule = Schedule::wavefront}};
+            if (device().tracesRays())
+                ways.push_back({.schedule = Schedule::fused, .accelerator = RayAccelerator::rayQuery});
+            for (const WorkSettings& work : ways) {
+                settings.work = work;
                 EXPECT_EQ(renderScene(other, scene, settings, embeddedKernel).filmWords,
                           renderScene(device(), scene, settings).filmWords)
                     << name;

@@ -133,6 +133,18 @@ TEST_F(OtherTrees, EmbreesAmongThemGiveTheSamePicture) {
     EXPECT_LE(shareThatDiffers(kernels, renderScene(device(), scene_, settings).rendering), 0.01);
 }
 
+TEST_F(OtherTrees, TheDevicesAmongThemGiveTheSamePicture) {
+    if (!device().tracesRays())
+        GTEST_SKIP() << "the device has no VK_KHR_ray_query";
+    for (const Schedule schedule : {Schedule::fused, Schedule::wavefront}) {
+        RenderSettings settings = imageSettings(kSize, kSize, 16);
+        settings.work = {.schedule = schedule, .accelerator = RayAccelerator::bvh8};
+        const Rendering kernels = renderScene(device(), scene_, settings).rendering;
+        settings.work.accelerator = RayAccelerator::rayQuery;
+        EXPECT_LE(shareThatDiffers(kernels, renderScene(device(), scene_, settings).rendering), 0.01);
+    }
+}
+
 // By the rule for triangles at equal distance, and not because there are none.
 TEST_F(OtherTrees, GiveOtherFilmsWhereTheFirstTriangleMetWins) {
     prepare(Schedule::fused, [](std::string_view kernel) {

@@ -37,8 +37,9 @@ gpu::KernelCode patchedKernel(std::string_view kernel, const std::vector<Patch>&
              fs::copy_options::recursive | fs::copy_options::overwrite_existing);
     for (const Patch& patch : patches)
         apply(patch, folder.path());
-    return gpu::compileKernel(folder.path() / "kernels" / (std::string(kernel) + ".comp"), folder.path(),
-                              includedFile);
+    const KernelName name = parseKernelName(kernel);
+    return gpu::compileKernel(folder.path() / "kernels" / (std::string(name.file) + ".comp"), folder.path(),
+                              [&](const std::string& path) { return includedFile(path, name.accelerator); });
 }
 
 } // namespace lavalight::test

@@ -1,7 +1,7 @@
 // A triangle that a ray has met and that may let it through. Traversal leaves its loop to ask: lavapipe executes all that
 // stands in a loop, and would look up textures at every step.
 #include "scene/alpha.glsl"
-#include "scene/bvh8/nearest_hit.glsl"
+#include "scene/nearest_hit.glsl"
 #include "scene/triangle_record.glsl"
 #include "shared/wavefront.h"
 

@@ -15,7 +15,7 @@ void printText(const std::vector<gpu::DeviceDescription>& devices) {
     for (const gpu::DeviceDescription& device : devices)
         fmt::print("{}  {} ({}, Vulkan {}, {}): {}\n", device.index, device.name, device.type,
                    device.apiVersion, device.driver,
-                   device.refusals.empty() ? "can render"
+                   device.refusals.empty() ? device.tracesRays ? "can render, traces rays" : "can render"
                                            : fmt::format("refused: {}", fmt::join(device.refusals, "; ")));
 }
 
@@ -27,6 +27,7 @@ void printJson(const std::vector<gpu::DeviceDescription>& devices) {
                         {"driver", device.driver},
                         {"type", device.type},
                         {"api", device.apiVersion},
+                        {"tracesRays", device.tracesRays},
                         {"refusals", device.refusals}});
     fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
 }

@@ -63,6 +63,15 @@ TEST_F(ShaderOverlayTest, TheAcceleratorIsPartOfTheKernelsThatTraceRays) {
     EXPECT_EQ(overlay().unused(), Paths{});
 }
 
+TEST_F(ShaderOverlayTest, EachAcceleratorIsPartOfItsOwnKernels) {
+    const std::string path = "scene/ray_query/accelerator.glsl";
+    write(path, replaced(ours(path), "kLongestRay = 3e38", "kLongestRay = 2e38"));
+    EXPECT_TRUE(changes("trace_any@ray_query"));
+    EXPECT_FALSE(changes("trace_any"));
+    EXPECT_FALSE(changes("accumulate@ray_query")); // which traces nothing
+    EXPECT_EQ(overlay().unused(), Paths{});
+}
+
 TEST_F(ShaderOverlayTest, CopiesChangeNothing) {
     write("lib/sampling/roulette.glsl", ours("lib/sampling/roulette.glsl"));
     write("shared/frame.h", ours("shared/frame.h"));
