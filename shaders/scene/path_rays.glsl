@@ -125,12 +125,19 @@ Hit traceAmongSolids(RayFilter ignored, float end, bool startsVary, inout Ray ra
     return hit;
 }
 
-// The closest hit; t is infinite where there is none. glTF's back-face culling is for the camera alone: light transport
-// needs closed surfaces.
+// glTF's back-face culling is for the camera alone: light transport needs closed surfaces.
+RayFilter filterOf(uint slot, uint bounce, Ray ray) {
+    return RayFilter(bounce == 0u, ray.fromSurface, kNoSurface, alphaSeed(keyOfSlot(slot, bounce), kDimensionAlpha));
+}
+
+float endOf(uint bounce, Ray ray) {
+    return bounce == 0u ? cameraRayEnd(frame, ray.direction) : kInfinity;
+}
+
+// The closest hit; t is infinite where there is none.
 Hit trace(uint slot, uint bounce, inout Ray ray) {
-    const RayFilter ignored = RayFilter(bounce == 0u, ray.fromSurface, kNoSurface,
-                                        alphaSeed(keyOfSlot(slot, bounce), kDimensionAlpha));
-    const float end = bounce == 0u ? cameraRayEnd(frame, ray.direction) : kInfinity;
+    const RayFilter ignored = filterOf(slot, bounce, ray);
+    const float end = endOf(bounce, ray);
     if (sceneHas(kFeatureSolids))
         return traceAmongSolids(ignored, end, sceneHas(kFeatureStartsVary) && bounce == 0u, ray);
     Hit hit;

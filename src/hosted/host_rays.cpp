@@ -41,11 +41,22 @@ struct ShaderRays {
     RTCScene embree = nullptr;
 
 #include "shader_rays_members.h"
+
+    // trace() of several rays, in a scene without solids.
+    void traceTogether(uint32_t bounce, std::span<const uint32_t> slots, std::span<const Ray> rays,
+                       std::span<Hit> hits);
 };
 
 namespace {
 
-// A ray on its way through Embree, which asks about every triangle that it finds.
+// A ray on its way through Embree.
+struct Lane {
+    ShaderRays::RayFilter ignored;
+    ShaderRays::ShearedRay ray;
+    ShaderRays::NearestHit nearest; // so far
+};
+
+// One ray or several, about which Embree asks for every triangle that it finds.
 struct Query {
 #if RTC_VERSION_MAJOR >= 4
     RTCRayQueryContext context;
@@ -53,21 +64,23 @@ struct Query {
     RTCIntersectContext context;
 #endif
     ShaderRays* shader;
-    const ShaderRays::RayFilter* ignored;
-    ShaderRays::ShearedRay ray;
-    ShaderRays::NearestHit nearest; // so far
+    Lane* lanes; // by the rays' ids
 };
 
 void filter(const RTCFilterFunctionNArguments* asked) {
-    if (asked->valid[0] != -1)
-        return;
     Query& query = *reinterpret_cast<Query*>(asked->context);
-    const vec2 proposed(RTCHitN_u(asked->hit, 1, 0), RTCHitN_v(asked->hit, 1, 0));
-    if (query.shader->takesProposed(query.ray, RTCHitN_primID(asked->hit, 1, 0), proposed, *query.ignored,
-                                    query.nearest))
-        RTCRayN_tfar(asked->ray, 1, 0) = query.shader->withMargin(query.nearest.hit.t);
-    else
-        asked->valid[0] = 0;
+    const unsigned rays = asked->N;
+    for (unsigned i = 0; i < rays; ++i) {
+        if (asked->valid[i] != -1)
+            continue;
+        Lane& lane = query.lanes[RTCRayN_id(asked->ray, rays, i)];
+        const vec2 proposed(RTCHitN_u(asked->hit, rays, i), RTCHitN_v(asked->hit, rays, i));
+        if (query.shader->takesProposed(lane.ray, RTCHitN_primID(asked->hit, rays, i), proposed, lane.ignored,
+                                        lane.nearest))
+            RTCRayN_tfar(asked->ray, rays, i) = query.shader->withMargin(lane.nearest.hit.t);
+        else
+            asked->valid[i] = 0;
+    }
 }
 
 RTCRay toEmbree(vec3 origin, vec3 direction, float end) {
@@ -97,24 +110,32 @@ bool isTraceable(vec3 origin, vec3 direction) {
     return isWithin(origin) && isWithin(direction);
 }
 
-Query makeQuery(ShaderRays& shader, vec3 origin, vec3 direction, float tMax,
-                const ShaderRays::RayFilter& ignored) {
-    Query query{{}, &shader, &ignored, shader.shearRay(origin, direction), shader.nothingBefore(tMax)};
+Lane makeLane(ShaderRays& shader, vec3 origin, vec3 direction, float tMax,
+              const ShaderRays::RayFilter& ignored) {
+    return {ignored, shader.shearRay(origin, direction), shader.nothingBefore(tMax)};
+}
+
+enum class Likeness { none, coherent };
+
+Query makeQuery(ShaderRays& shader, Lane* lanes, [[maybe_unused]] Likeness likeness) {
+    Query query{{}, &shader, lanes};
 #if RTC_VERSION_MAJOR >= 4
     rtcInitRayQueryContext(&query.context);
 #else
     rtcInitIntersectContext(&query.context);
     query.context.filter = filter;
+    if (likeness == Likeness::coherent)
+        query.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
 #endif
     return query;
 }
 
 #if RTC_VERSION_MAJOR >= 4
 template <typename Arguments>
-void setFilter(Arguments& arguments, Query& query) {
+void setFilter(Arguments& arguments, Query& query, RTCRayQueryFlags flags = RTC_RAY_QUERY_FLAG_NONE) {
     arguments.context = &query.context;
     arguments.filter = filter;
-    arguments.flags = RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER;
+    arguments.flags = static_cast<RTCRayQueryFlags>(RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER | flags);
 }
 
 void intersect(RTCScene scene, Query& query, RTCRayHit& ray) {
@@ -122,6 +143,13 @@ void intersect(RTCScene scene, Query& query, RTCRayHit& ray) {
     rtcInitIntersectArguments(&arguments);
     setFilter(arguments, query);
     rtcIntersect1(scene, &ray, &arguments);
+}
+
+void intersect(RTCScene scene, Query& query, const int* valid, RTCRayHit8& rays) {
+    RTCIntersectArguments arguments;
+    rtcInitIntersectArguments(&arguments);
+    setFilter(arguments, query, RTC_RAY_QUERY_FLAG_COHERENT);
+    rtcIntersect8(valid, scene, &rays, &arguments);
 }
 
 void occlude(RTCScene scene, Query& query, RTCRay& ray) {
@@ -135,6 +163,10 @@ void intersect(RTCScene scene, Query& query, RTCRayHit& ray) {
     rtcIntersect1(scene, &query.context, &ray);
 }
 
+void intersect(RTCScene scene, Query& query, const int* valid, RTCRayHit8& rays) {
+    rtcIntersect8(valid, scene, &query.context, &rays);
+}
+
 void occlude(RTCScene scene, Query& query, RTCRay& ray) {
     rtcOccluded1(scene, &query.context, &ray);
 }
@@ -143,28 +175,65 @@ void occlude(RTCScene scene, Query& query, RTCRay& ray) {
 } // namespace
 
 bool ShaderRays::intersectClosest(vec3 origin, vec3 direction, float tMax, RayFilter ignored, Hit& hit) {
-    Query query = makeQuery(*this, origin, direction, tMax, ignored);
+    Lane lane = makeLane(*this, origin, direction, tMax, ignored);
     if (!isTraceable(origin, direction)) {
-        hit = query.nearest.hit;
+        hit = lane.nearest.hit;
         return false;
     }
+    Query query = makeQuery(*this, &lane, Likeness::none);
     RTCRayHit ray;
     ray.ray = toEmbree(origin, direction, withMargin(tMax));
     ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     intersect(embree, query, ray);
-    hit = query.nearest.hit;
+    hit = lane.nearest.hit;
     return ray.hit.geomID != RTC_INVALID_GEOMETRY_ID;
 }
 
 bool ShaderRays::intersectAny(vec3 origin, vec3 direction, float tMax, RayFilter ignored) {
     if (!isTraceable(origin, direction))
         return false;
-    Query query = makeQuery(*this, origin, direction, tMax, ignored);
+    Lane lane = makeLane(*this, origin, direction, tMax, ignored);
+    Query query = makeQuery(*this, &lane, Likeness::none);
     RTCRay ray = toEmbree(origin, direction, withMargin(tMax));
     occlude(embree, query, ray);
     return ray.tfar < 0.0f; // Embree's mark of an occluded ray
 }
 #pragma GCC diagnostic pop
+
+void ShaderRays::traceTogether(uint32_t bounce, std::span<const uint32_t> slots, std::span<const Ray> rays,
+                               std::span<Hit> hits) {
+    constexpr size_t kRays = HostRays::kRaysTogether;
+    std::array<Lane, kRays> lanes;
+    alignas(32) std::array<int, kRays> valid{};
+    RTCRayHit8 packet;
+    for (uint32_t i = 0; i < rays.size(); ++i) {
+        const Ray& ray = rays[i];
+        const float end = endOf(bounce, ray);
+        lanes[i] = makeLane(*this, ray.origin, ray.direction, end, filterOf(slots[i], bounce, ray));
+        valid[i] = isTraceable(ray.origin, ray.direction) ? -1 : 0;
+        RTCRay8& to = packet.ray;
+        to.org_x[i] = ray.origin.x;
+        to.org_y[i] = ray.origin.y;
+        to.org_z[i] = ray.origin.z;
+        to.dir_x[i] = ray.direction.x;
+        to.dir_y[i] = ray.direction.y;
+        to.dir_z[i] = ray.direction.z;
+        to.tnear[i] = to.time[i] = 0.0f;
+        to.tfar[i] = withMargin(end);
+        to.mask[i] = ~0u;
+        to.id[i] = i;
+        to.flags[i] = 0;
+        packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+        hits[i] = {end, 0, vec2(0.0f)};
+    }
+    Query query = makeQuery(*this, lanes.data(), Likeness::coherent);
+    intersect(embree, query, valid.data(), packet);
+    for (size_t i = 0; i < rays.size(); ++i) {
+        hits[i] = lanes[i].nearest.hit;
+        if (packet.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID)
+            hits[i].t = kInfinity;
+    }
+}
 
 } // namespace glsl
 
@@ -212,6 +281,18 @@ HostRays::~HostRays() = default;
 
 Hit HostRays::trace(uint32_t slot, uint32_t bounce, Ray& ray) {
     return members_->shader.trace(slot, bounce, ray);
+}
+
+void HostRays::trace(uint32_t bounce, std::span<const uint32_t> slots, std::span<Ray> rays,
+                     std::span<Hit> hits) {
+    glsl::ShaderRays& shader = members_->shader;
+    assert(rays.size() <= kRaysTogether && slots.size() == rays.size() && hits.size() == rays.size());
+    if (!shader.has(kFeatureSolids)) {
+        shader.traceTogether(bounce, slots, rays, hits);
+        return;
+    }
+    for (size_t i = 0; i < rays.size(); ++i)
+        hits[i] = shader.trace(slots[i], bounce, rays[i]);
 }
 
 bool HostRays::isOccluded(const ShadowRay& ray, uint32_t slot, uint32_t bounce) {

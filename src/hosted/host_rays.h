@@ -40,15 +40,21 @@ inline constexpr std::array<std::string_view, 3> kTracingKernels{"extend", "conn
 // Error where one does not compile.
 [[nodiscard]] bool tracesAsHost(const KernelSource& source);
 
-// The answer for a ray depends on that ray alone: rays are traced one by one, and where triangles are met at
-// equal t the one of the lowest number is hit, in whatever order Embree finds them. For one thread.
+// The answer for a ray depends on that ray alone, also where it is traced together with others: our own test
+// decides where triangles are met, and at equal t the one of the lowest number is hit, in whatever order Embree
+// finds them. For one thread.
 class HostRays {
   public:
+    static constexpr size_t kRaysTogether = 8;
+
     HostRays(const HostScene& scene, const FrameParameters& frame, const WaveRange& range);
     ~HostRays();
 
     // trace() and isOccluded() of shaders/scene/path_rays.glsl. The surface of a hit is its record.
     [[nodiscard]] Hit trace(uint32_t slot, uint32_t bounce, Ray& ray);
+    // trace() of each of at most kRaysTogether rays. It is faster where they are much alike, as neighbouring
+    // camera rays are.
+    void trace(uint32_t bounce, std::span<const uint32_t> slots, std::span<Ray> rays, std::span<Hit> hits);
     [[nodiscard]] bool isOccluded(const ShadowRay& ray, uint32_t slot, uint32_t bounce);
 
     // Index of the material of the surface that was met.

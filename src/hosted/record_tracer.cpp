@@ -117,11 +117,14 @@ void RecordTracer::trace(const RecordBuffers& buffers, uint32_t bounce, Chunk& c
     }
     for (const uint32_t i : std::span(withShadowRay).first(chunk.shadowRays))
         connect(buffers, bounce, rays, i);
-    for (const uint32_t i : std::span(goingOn).first(chunk.rays)) {
-        regions_[i] = extend(buffers, bounce, rays, i);
+    // Camera rays are much alike; others are traced faster one by one.
+    const size_t together = bounce == 0 ? HostRays::kRaysTogether : 1;
+    for (size_t i = 0; i < chunk.rays; i += together)
+        extend(buffers, bounce, rays,
+               std::span(goingOn).subspan(i, std::min<size_t>(together, chunk.rays - i)));
+    for (const uint32_t i : std::span(goingOn).first(chunk.rays))
         if (regions_[i] != kEnded)
             ++chunk.counts[regions_[i]];
-    }
 }
 
 // Adds what the record's shadow ray brings.
@@ -144,8 +147,7 @@ void RecordTracer::connect(const RecordBuffers& buffers, uint32_t bounce, HostRa
         path.radiance += xyz(buffers.at(kPlaneContribution, record));
 }
 
-// Traces the record's next ray; returns the region where it goes, or kEnded.
-uint8_t RecordTracer::extend(const RecordBuffers& buffers, uint32_t bounce, HostRays& rays, uint32_t record) {
+Ray RecordTracer::rayOf(const RecordBuffers& buffers, uint32_t record) const {
     Ray ray{.origin = xyz(buffers.at(kPlaneOrigin, record)),
             .fromSurface = buffers.surfaceBefore(record),
             .direction = xyz(buffers.at(kPlaneDirection, record)),
@@ -156,7 +158,34 @@ uint8_t RecordTracer::extend(const RecordBuffers& buffers, uint32_t bounce, Host
         const glm::uvec4& inside = buffers.at(kPlaneInterior, record);
         ray.interior = {inside.x, inside.y, inside.z};
     }
-    const Hit hit = rays.trace(buffers.slot(record), bounce, ray);
+    return ray;
+}
+
+// Traces the next rays of records, one or kRaysTogether.
+void RecordTracer::extend(const RecordBuffers& buffers, uint32_t bounce, HostRays& rays,
+                          std::span<const uint32_t> records) {
+    if (records.size() == 1) {
+        Ray ray = rayOf(buffers, records[0]);
+        const Hit hit = rays.trace(buffers.slot(records[0]), bounce, ray);
+        regions_[records[0]] = take(buffers, bounce, rays, records[0], hit, ray);
+        return;
+    }
+    std::array<uint32_t, HostRays::kRaysTogether> slots;
+    std::array<Ray, HostRays::kRaysTogether> traced;
+    std::array<Hit, HostRays::kRaysTogether> hits;
+    for (size_t i = 0; i < records.size(); ++i) {
+        slots[i] = buffers.slot(records[i]);
+        traced[i] = rayOf(buffers, records[i]);
+    }
+    rays.trace(bounce, std::span(slots).first(records.size()), std::span(traced).first(records.size()),
+               std::span(hits).first(records.size()));
+    for (size_t i = 0; i < records.size(); ++i)
+        regions_[records[i]] = take(buffers, bounce, rays, records[i], hits[i], traced[i]);
+}
+
+// Keeps what the record's ray has met; returns the region where it goes, or kEnded.
+uint8_t RecordTracer::take(const RecordBuffers& buffers, uint32_t bounce, const HostRays& rays,
+                           uint32_t record, const Hit& hit, const Ray& ray) {
     if (!insides_.empty())
         insides_[record] = ray.interior;
     hits_[record] = {glm::floatBitsToUint(hit.t), hit.record, glm::floatBitsToUint(hit.barycentrics)};

@@ -61,7 +61,11 @@ class RecordTracer {
     struct Chunk;
     void trace(const RecordBuffers& buffers, uint32_t bounce, Chunk& chunk);
     void connect(const RecordBuffers& buffers, uint32_t bounce, HostRays& rays, uint32_t record) const;
-    uint8_t extend(const RecordBuffers& buffers, uint32_t bounce, HostRays& rays, uint32_t record);
+    void extend(const RecordBuffers& buffers, uint32_t bounce, HostRays& rays,
+                std::span<const uint32_t> records);
+    [[nodiscard]] Ray rayOf(const RecordBuffers& buffers, uint32_t record) const;
+    [[nodiscard]] uint8_t take(const RecordBuffers& buffers, uint32_t bounce, const HostRays& rays,
+                               uint32_t record, const Hit& hit, const Ray& ray);
     void sort(const RecordBuffers& buffers, const Chunk& chunk) const;
 
     HostScene scene_;

@@ -26,6 +26,14 @@ gpu::Kernel makeKernel(const gpu::Device& device, std::string_view file, Acceler
     return {device, embeddedKernel(textOf({file, kernelAccelerator(accelerator)})), constants};
 }
 
+// Which the host takes for that of a bounce: it culls no back faces, and ends nowhere.
+constexpr uint32_t kBounce = 1;
+
+TracedHit tracedHit(const Hit& hit) {
+    const bool isMet = hit.t < std::numeric_limits<float>::infinity();
+    return {hit.t, isMet ? SurfaceId{hit.record} : kNoSurface};
+}
+
 } // namespace
 
 RayTracer::RayTracer(gpu::Device& device, const GpuScene& scene, bool countsVisits)
@@ -37,23 +45,19 @@ RayTracer::RayTracer(gpu::Device& device, const GpuScene& scene, bool countsVisi
     any_ = makeKernel(device, "trace_any", scene.accelerator().kind(), countsVisits);
 }
 
-// Answers trace(rays, ray) for each ray, on all processors.
-template <typename Answer, typename GivenRay, typename Trace>
-std::vector<Answer> RayTracer::byHost(std::span<const GivenRay> rays, const Trace& trace) {
+template <typename Take>
+void RayTracer::byHost(size_t count, const Take& take) {
     constexpr size_t kTogether = 4096;
+    static_assert(kTogether % HostRays::kRaysTogether == 0);
     const auto start = std::chrono::steady_clock::now();
     const HostScene scene = hostScene(*scene_, 0); // all surfaces are opaque to these rays
     WaveRange range{};
     range.pixelCount = range.sampleCount = 1;
-    std::vector<Answer> answers(rays.size());
-    forEachInParallel((rays.size() + kTogether - 1) / kTogether, [&](size_t part) {
+    forEachInParallel((count + kTogether - 1) / kTogether, [&](size_t part) {
         HostRays host(scene, {}, range);
-        const size_t end = std::min(rays.size(), (part + 1) * kTogether);
-        for (size_t i = part * kTogether; i < end; ++i)
-            answers[i] = trace(host, rays[i]);
+        take(host, part * kTogether, std::min(count, (part + 1) * kTogether));
     });
     lastSeconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    return answers;
 }
 
 size_t RayTracer::maxRays() const {
@@ -62,12 +66,16 @@ size_t RayTracer::maxRays() const {
 }
 
 std::vector<TracedHit> RayTracer::closest(std::span<const Ray> rays) {
-    if (!closest_)
-        return byHost<TracedHit>(rays, [](HostRays& host, Ray ray) {
-            const Hit hit = host.trace(0, 1, ray);
-            const bool isMet = hit.t < std::numeric_limits<float>::infinity();
-            return TracedHit{hit.t, isMet ? SurfaceId{hit.record} : kNoSurface};
+    if (!closest_) {
+        std::vector<TracedHit> hits(rays.size());
+        byHost(rays.size(), [&](HostRays& host, size_t first, size_t end) {
+            for (size_t i = first; i < end; ++i) {
+                Ray ray = rays[i];
+                hits[i] = tracedHit(host.trace(0, kBounce, ray));
+            }
         });
+        return hits;
+    }
     gpu::Buffer in(*device_, "rays", rays.size_bytes(), gpu::BufferUse::storage);
     const gpu::Buffer out(*device_, "hits", rays.size() * sizeof(TracedHit), gpu::BufferUse::storage);
     in.upload(rays);
@@ -79,10 +87,35 @@ std::vector<TracedHit> RayTracer::closest(std::span<const Ray> rays) {
     return out.downloadAll<TracedHit>();
 }
 
+std::vector<TracedHit> RayTracer::closestTogether(std::span<const Ray> rays) {
+    assert(!closest_);
+    constexpr size_t kMost = HostRays::kRaysTogether;
+    constexpr std::array<uint32_t, kMost> kSlots{};
+    std::vector<TracedHit> hits(rays.size());
+    byHost(rays.size(), [&](HostRays& host, size_t first, size_t end) {
+        for (size_t i = first; i < end; i += kMost) {
+            const size_t count = std::min(kMost, end - i);
+            std::array<Ray, kMost> some;
+            std::array<Hit, kMost> met;
+            std::copy_n(rays.begin() + static_cast<std::ptrdiff_t>(i), count, some.begin());
+            host.trace(kBounce, std::span(kSlots).first(count), std::span(some).first(count),
+                       std::span(met).first(count));
+            std::transform(met.begin(), met.begin() + static_cast<std::ptrdiff_t>(count),
+                           hits.begin() + static_cast<std::ptrdiff_t>(i), tracedHit);
+        }
+    });
+    return hits;
+}
+
 std::vector<uint32_t> RayTracer::occluded(std::span<const ShadowRay> rays) {
-    if (!any_)
-        return byHost<uint32_t>(
-            rays, [](HostRays& host, const ShadowRay& ray) { return host.isOccluded(ray, 0, 0) ? 1u : 0u; });
+    if (!any_) {
+        std::vector<uint32_t> flags(rays.size());
+        byHost(rays.size(), [&](HostRays& host, size_t first, size_t end) {
+            for (size_t i = first; i < end; ++i)
+                flags[i] = host.isOccluded(rays[i], 0, 0) ? 1u : 0u;
+        });
+        return flags;
+    }
     gpu::Buffer in(*device_, "shadow rays", rays.size_bytes(), gpu::BufferUse::storage);
     const gpu::Buffer out(*device_, "shadow flags", rays.size() * sizeof(uint32_t), gpu::BufferUse::storage);
     in.upload(rays);

@@ -26,6 +26,8 @@ class RayTracer {
 
     // The first hit with t > 0 of each ray, from either side, but not of the triangle that it starts on.
     [[nodiscard]] std::vector<TracedHit> closest(std::span<const Ray> rays);
+    // The same by HostRays::kRaysTogether neighbours at once; the scene's accelerator must be Embree's.
+    [[nodiscard]] std::vector<TracedHit> closestTogether(std::span<const Ray> rays);
     // A flag for each ray: 1 where anything but the triangles that the ray starts and ends on lies at
     // 0 < t < 1. Contributions are ignored.
     [[nodiscard]] std::vector<uint32_t> occluded(std::span<const ShadowRay> rays);
@@ -36,8 +38,9 @@ class RayTracer {
     [[nodiscard]] const VisitCounts& lastVisits() const { return lastVisits_; }
 
   private:
-    template <typename Answer, typename GivenRay, typename Trace>
-    std::vector<Answer> byHost(std::span<const GivenRay> rays, const Trace& trace);
+    // Has the host take parts of `count` rays: take(host, first, end), on all processors.
+    template <typename Take>
+    void byHost(size_t count, const Take& take);
     void run(const gpu::Kernel& kernel, gpu::ResourceTable resources, size_t rays);
 
     gpu::Device* device_;
