@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "accel/embree_triangles.h"
 #include "base/parallel.h"
@@ -176,11 +179,56 @@ bool isContinued(const SmoothTriangle& a, const SmoothTriangle& b) {
     return false;
 }
 
+// Every third bit of the result is one of the ten of x.
+uint32_t spread(uint32_t x) {
+    x = (x | x << 16) & 0x030000ffu;
+    x = (x | x << 8) & 0x0300f00fu;
+    x = (x | x << 4) & 0x030c30c3u;
+    return (x | x << 2) & 0x09249249u;
+}
+
+// Ids of the triangles along a Z curve through their middles: what lies together in space then lies together
+// in memory, for which a search would wait most of its time.
+std::vector<uint32_t> alongZCurve(std::span<const Triangle> triangles) {
+    const auto middle = [](const Triangle& t) { return (t.v0 + t.v1 + t.v2) / 3.0f; };
+    glm::vec3 lower(std::numeric_limits<float>::infinity());
+    glm::vec3 upper = -lower;
+    for (const Triangle& t : triangles) {
+        lower = glm::min(lower, middle(t));
+        upper = glm::max(upper, middle(t));
+    }
+    const glm::vec3 scale = 1023.0f / glm::max(upper - lower, glm::vec3(1e-30f));
+    std::vector<std::pair<uint32_t, uint32_t>> keys;
+    keys.reserve(triangles.size());
+    for (uint32_t id = 0; id < triangles.size(); ++id) {
+        const glm::uvec3 cell((middle(triangles[id]) - lower) * scale);
+        keys.emplace_back(spread(cell.x) | spread(cell.y) << 1 | spread(cell.z) << 2, id);
+    }
+    std::ranges::sort(keys);
+    std::vector<uint32_t> ids;
+    ids.reserve(keys.size());
+    for (const auto& [key, id] : keys)
+        ids.push_back(id);
+    return ids;
+}
+
+// The triangles in the order in which they are searched, and their ids.
+struct Neighbourhood {
+    std::vector<uint32_t> ids;
+    std::vector<Triangle> triangles;
+
+    explicit Neighbourhood(std::span<const Triangle> byId) : ids(alongZCurve(byId)) {
+        triangles.reserve(ids.size());
+        for (const uint32_t id : ids)
+            triangles.push_back(byId[id]);
+    }
+};
+
 // A look around one triangle for what overlaps the prism on either of its sides.
 struct Search {
     const SmoothTriangles& smooth;
-    std::span<const Triangle> triangles;
-    uint32_t triangle;
+    const Neighbourhood& around;
+    uint32_t place; // of the triangle, in `around`
     SmoothTriangle corners;
     std::array<std::optional<LiftPrism>, 2> prisms;
     bool isCrowded = false;
@@ -197,10 +245,11 @@ struct Search {
 bool meet(RTCPointQueryFunctionArguments* found) {
     auto& search = *static_cast<Search*>(found->userPtr);
     const uint32_t other = found->primID;
-    if (search.isCrowded || other == search.triangle ||
-        !search.isOverlapped(cornersOf(search.triangles[other])))
+    if (search.isCrowded || other == search.place ||
+        !search.isOverlapped(cornersOf(search.around.triangles[other])))
         return false;
-    if (search.smooth.isSmooth(other) && isContinued(search.corners, search.smooth.at(other)))
+    const uint32_t id = search.around.ids[other];
+    if (search.smooth.isSmooth(id) && isContinued(search.corners, search.smooth.at(id)))
         return false;
     search.isCrowded = true;
     found->query->radius = 0.0f; // ends the search
@@ -221,26 +270,33 @@ bool isCrowded(RTCScene scene, Search search) {
 
 std::vector<bool> crowdedLifts(const Scene& scene, std::span<const Triangle> triangles) {
     const SmoothTriangles smooth(scene);
-    const auto searchOf = [&](uint32_t id) {
-        const SmoothTriangle corners = smooth.at(id);
-        return Search{smooth, triangles, id, corners, {liftPrism(corners, 1.0f), liftPrism(corners, -1.0f)}};
+    const auto prismsOf = [](const SmoothTriangle& corners) {
+        return std::array{liftPrism(corners, 1.0f), liftPrism(corners, -1.0f)};
     };
-    bool isAllFree = true;
-    for (uint32_t id = 0; id < triangles.size() && isAllFree; ++id)
-        isAllFree = !smooth.isSmooth(id) || searchOf(id).isFree();
-    if (isAllFree)
+    const auto isLifted = [&](uint32_t id) {
+        if (!smooth.isSmooth(id))
+            return false;
+        const auto [front, back] = prismsOf(smooth.at(id));
+        return front || back;
+    };
+    bool isAnyLifted = false;
+    for (uint32_t id = 0; id < triangles.size() && !isAnyLifted; ++id)
+        isAnyLifted = isLifted(id);
+    if (!isAnyLifted)
         return {};
-    const EmbreeTriangles tree(triangles, RTC_BUILD_QUALITY_LOW);
+    const Neighbourhood around(triangles);
+    const EmbreeTriangles tree(around.triangles, RTC_BUILD_QUALITY_LOW);
     std::vector<uint8_t> crowded(triangles.size()); // bytes, which threads may write side by side
     constexpr size_t kAtATime = 1024;
     forEachInParallel((triangles.size() + kAtATime - 1) / kAtATime, [&](size_t part) {
         const size_t end = std::min(triangles.size(), (part + 1) * kAtATime);
-        for (size_t i = part * kAtATime; i < end; ++i) {
-            const auto id = static_cast<uint32_t>(i);
+        for (size_t place = part * kAtATime; place < end; ++place) {
+            const uint32_t id = around.ids[place];
             if (!smooth.isSmooth(id))
                 continue;
-            const Search search = searchOf(id);
-            crowded[i] = !search.isFree() && isCrowded(tree.scene(), search);
+            const SmoothTriangle corners = smooth.at(id);
+            const Search search{smooth, around, static_cast<uint32_t>(place), corners, prismsOf(corners)};
+            crowded[id] = !search.isFree() && isCrowded(tree.scene(), search);
         }
     });
     return {crowded.begin(), crowded.end()};

@@ -41,8 +41,8 @@ inline constexpr std::array<std::string_view, 3> kTracingKernels{"extend", "conn
 [[nodiscard]] bool tracesAsHost(const KernelSource& source);
 
 // The answer for a ray depends on that ray alone, also where it is traced together with others: our own test
-// decides where triangles are met, and at equal t the one of the lowest number is hit, in whatever order Embree
-// finds them. For one thread.
+// decides where triangles are met, and at equal t the one of the lowest number is hit, in whatever order
+// Embree finds them. For one thread.
 class HostRays {
   public:
     static constexpr size_t kRaysTogether = 8;

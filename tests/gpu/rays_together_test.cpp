@@ -43,8 +43,7 @@ class RaysTogether : public DeviceTest {
             const std::vector<TracedHit> alone = tracer.closest(rays);
             const std::vector<TracedHit> together = tracer.closestTogether(rays);
             for (size_t i = 0; i < rays.size(); ++i)
-                count += alone[i].t != together[i].t ||
-                                 !isSameSurface(alone[i].surface, together[i].surface)
+                count += alone[i].t != together[i].t || !isSameSurface(alone[i].surface, together[i].surface)
                              ? 1
                              : 0;
             std::shuffle(rays.begin(), rays.end(), std::mt19937(seed));
@@ -85,8 +84,8 @@ TEST_F(RaysTogether, AtEdgesAndVerticesFindTheSame) {
                         const glm::dvec3 a(there.positions[triangle[i]]);
                         const glm::dvec3 b(there.positions[triangle[(i + 1) % 3]]);
                         for (const double along : {0.0, 0.5})
-                            rays.push_back(freeRay(
-                                origin, glm::normalize(a + along * (b - a) - glm::dvec3(origin))));
+                            rays.push_back(
+                                freeRay(origin, glm::normalize(a + along * (b - a) - glm::dvec3(origin))));
                     }
                 EXPECT_EQ(differing(tracer, rays, static_cast<uint32_t>(round)), 0u) << placement.name();
             }

@@ -1,5 +1,6 @@
 #include "support/glass_quadrature.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>

@@ -1,6 +1,8 @@
 // The tree finds every triangle, its boxes are never too small, and no input makes it fail or grow too deep.
 #include <algorithm>
+#include <cmath>
 #include <cstring>
+#include <limits>
 #include <set>
 #include <vector>
 

@@ -2,6 +2,7 @@
 #include "accel/presplit.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,6 @@
 // Tests of KHR_animation_pointer: what can be animated, at which time, and what is left as it is.
 #include <cmath>
+#include <optional>
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,7 @@
 // Tests of animations: what lies between keys, what a channel moves, which animation is meant.
 #include <cmath>
 #include <functional>
+#include <optional>
 
 #include <gtest/gtest.h>
 

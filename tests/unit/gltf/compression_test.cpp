@@ -1,6 +1,7 @@
 // Tests of geometry compressed by meshoptimizer and by Draco: round trips through their encoders, damaged and
 // unknown streams, and real files beside their uncompressed twins.
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <filesystem>
 

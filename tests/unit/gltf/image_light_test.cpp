@@ -1,5 +1,6 @@
 // Tests of EXT_lights_image_based: which face is where, what its texels mean, and what stands in for bad
 // ones.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 

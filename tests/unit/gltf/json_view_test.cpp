@@ -1,6 +1,8 @@
 // Tests of typed access to JSON.
 #include "gltf/file/json_view.h"
 
+#include <optional>
+
 #include <gtest/gtest.h>
 
 namespace lavalight::test {

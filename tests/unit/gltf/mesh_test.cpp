@@ -1,4 +1,5 @@
 // Tests of how the import reads vertices, indices and topologies.
+#include <array>
 #include <cmath>
 #include <limits>
 

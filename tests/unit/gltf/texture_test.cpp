@@ -1,5 +1,6 @@
 // Tests of textures: from a file's images, samplers and transforms to pictures and rows.
 #include <cmath>
+#include <cstring>
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,7 @@
 // Environment maps as found in the wild, whole and broken.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <limits>

@@ -1,10 +1,12 @@
 // Environment maps in OpenEXR: windows that differ, cubes, and compressions that came later.
 #include "image/exr_sphere.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <functional>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <vector>
 

@@ -1,6 +1,7 @@
 // Every light is in the tree once, where its path says, and inside the bounds of all nodes above it.
 #include "light/light_tree.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 

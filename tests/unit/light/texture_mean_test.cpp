@@ -1,6 +1,7 @@
 // The mean of a texture over a triangle is that of all its points, for every filter and wrap mode.
 #include "light/texture_mean.h"
 
+#include <array>
 #include <cmath>
 #include <gtest/gtest.h>
 
