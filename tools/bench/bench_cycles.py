@@ -1,7 +1,8 @@
-"""Renders glTF scenes with Cycles for tools/bench/equal_error: answers requests on stdin, as Mitsuba's end in bench.py does.
+"""Renders glTF scenes with Cycles for tools/bench/equal_error: answers requests on stdin, as Mitsuba's end in bench_mitsuba.py does.
 
-Geometry and materials are made from the same reading of the file as Mitsuba's (tools/bench/gltf_to_mitsuba.py), with nodes that
-mean what Lavalight means; runs where Blender's module bpy is installed.
+Geometry and materials of built-in scenes are made from the same reading of the file as Mitsuba's (tools/bench/gltf_to_mitsuba.py),
+with nodes that mean what Lavalight means. Views of the assets are read by Blender's own importer (tools/bench/cycles_scene.py).
+Runs where Blender's module bpy is installed.
 """
 import argparse
 import json
@@ -12,6 +13,7 @@ import time
 import bpy
 import numpy as np
 
+import cycles_scene
 from gltf_to_mitsuba import SMOOTH_ALPHA, Gltf, Unsupported, emission, triangles
 
 CAMERA_SAMPLES = 1  # a render of so many costs what is not sampling
@@ -97,25 +99,13 @@ def add_camera(scene, camera, world):
     scene.camera = placed
 
 
-def set_estimator(scene, bounces, threads):
-    scene.render.engine = "CYCLES"
-    scene.render.threads_mode = "FIXED"
-    scene.render.threads = threads
+def set_estimator(scene, options):
+    cycles_scene.set_estimator(scene, options.bounces)
+    scene.render.threads_mode, scene.render.threads = "FIXED", options.threads
     scene.render.use_persistent_data = True
-    cycles = scene.cycles
-    cycles.device = "CPU"
-    cycles.use_adaptive_sampling = cycles.use_denoising = False
-    cycles.use_light_tree = True
-    cycles.max_bounces = cycles.diffuse_bounces = cycles.glossy_bounces = cycles.transmission_bounces = bounces
-    cycles.caustics_reflective = cycles.caustics_refractive = True
-    cycles.blur_glossy = cycles.sample_clamp_direct = cycles.sample_clamp_indirect = 0
-    cycles.pixel_filter_type = "BOX"
-    scene.render.image_settings.file_format = "OPEN_EXR"
-    scene.render.image_settings.color_depth = "32"
-    scene.render.image_settings.color_mode = "RGB"
 
 
-def load(path, size, environment, bounces, threads):
+def load(path, size, environment):
     bpy.ops.wm.read_factory_settings(use_empty=True)
     scene = bpy.context.scene
     gltf = Gltf(path)
@@ -129,17 +119,23 @@ def load(path, size, environment, bounces, threads):
     scene.world.use_nodes = True
     scene.world.node_tree.nodes["Background"].inputs["Color"].default_value = (*environment, 1)
     scene.render.resolution_x, scene.render.resolution_y = size
-    set_estimator(scene, bounces, threads)
+    return scene
 
 
 def render(samples, seed, file):
-    """Seconds, those before sampling included."""
+    """Seconds by the clock and of processor time, those before sampling included."""
     scene = bpy.context.scene
     scene.cycles.samples, scene.cycles.seed = samples, seed
     scene.render.filepath = file
-    start = time.perf_counter()
+    start, processor = time.perf_counter(), time.process_time()
     bpy.ops.render.render(write_still=True)
-    return time.perf_counter() - start
+    return time.perf_counter() - start, time.process_time() - processor
+
+
+def load_request(request):
+    if "view" in request:
+        return cycles_scene.load(argparse.Namespace(**request["view"]))
+    return load(request["load"], request["size"], request["environment"])
 
 
 def main():
@@ -152,12 +148,13 @@ def main():
     setup = 0.0
     for line in sys.stdin:
         request = json.loads(line)
-        if "load" in request:
-            load(request["load"], request["size"], request["environment"], options.bounces, options.threads)
-            setup = min(render(CAMERA_SAMPLES, seed, request["file"]) for seed in (1, 2, 3))
-            answer = {}
+        if "samples" in request:
+            seconds, processor = render(request["samples"], request["seed"], request["file"])
+            answer = {"seconds": max(seconds - setup, 1e-3), "processor": processor}
         else:
-            answer = {"seconds": max(render(request["samples"], request["seed"], request["file"]) - setup, 1e-3)}
+            set_estimator(load_request(request), options)
+            setup = min(render(CAMERA_SAMPLES, seed, request["file"])[0] for seed in (1, 2, 3))
+            answer = {}
         print(json.dumps(answer), file=answers, flush=True)
 
 

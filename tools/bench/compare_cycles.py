@@ -12,23 +12,10 @@ import OpenEXR
 import cycles_scene
 
 
-def set_estimator(scene, options):
-    scene.render.engine = "CYCLES"
-    cycles = scene.cycles
-    cycles.device = "CPU"
-    cycles.samples, cycles.seed = options.spp, 1
-    cycles.use_adaptive_sampling = cycles.use_denoising = False
-    cycles.max_bounces = cycles.diffuse_bounces = cycles.glossy_bounces = options.bounces
-    cycles.transmission_bounces = cycles.transparent_max_bounces = options.bounces
-    cycles.blur_glossy = cycles.sample_clamp_direct = cycles.sample_clamp_indirect = 0
-    cycles.pixel_filter_type = "BOX"
-    settings = scene.render.image_settings
-    settings.file_format, settings.color_depth, settings.color_mode = "OPEN_EXR", "32", "RGB"
-
-
 def render_with_cycles(options, out):
     scene = cycles_scene.load(options)
-    set_estimator(scene, options)
+    cycles_scene.set_estimator(scene, options.bounces)
+    scene.cycles.samples, scene.cycles.seed = options.spp, 1
     scene.render.filepath = str(out.resolve())
     bpy.ops.render.render(write_still=True)
 

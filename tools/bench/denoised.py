@@ -9,14 +9,15 @@ import argparse
 import json
 import os
 import statistics
-import subprocess
 import sys
 import tempfile
-import time
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
 import flip_evaluator
+
+import timed_process
+import views
 
 ROOT = Path(__file__).resolve().parents[2]
 LADDER = [2 ** n for n in range(11)]
@@ -26,29 +27,14 @@ REFERENCE_SEED, SEED = 1, 0  # other noise in the converged picture than in the 
 
 
 @dataclass
-class View:
-    """A file of the assets, the map that lights it, and what is seen from where."""
-    file: str
-    environment: str
-    look_from: str
-    look_at: str
-    fov: float
-    target: float  # largest ratio of Lavalight's time to Cycles'
+class Goal:
+    """What is wanted of a view."""
+    ratio: float  # largest ratio of Lavalight's time to Cycles'
     reference: int = 256  # samples of the converged picture
 
-    def options(self):
-        return [f"--look-from={self.look_from}", f"--look-at={self.look_at}", f"--fov={self.fov}", f"--size={SIZE}"]
 
-
-VENICE, SKY = "_env/venice_sunset_1k.hdr", "_env/qwantani_afternoon_puresky_1k.hdr"
-VIEWS = {
-    "WaterBottle": View("WaterBottle/glTF/WaterBottle.gltf", VENICE, "0.19,0.1,0.36", "0,0,0", 40, 0.5),
-    "FlightHelmet": View("FlightHelmet/glTF/FlightHelmet.gltf", VENICE, "0,0.36,1.2", "0,0.36,0", 38, 0.5),
-    "ToyCar": View("ToyCar/glTF/ToyCar.gltf", VENICE, "-0.0433,0.0236,0.0761", "0.0065,-0.0014,-0.0069", 23.5, 0.5),
-    "SheenChair": View("SheenChair/glTF/SheenChair.gltf", VENICE, "0.74,0.8,1.25", "0,0.34,0", 42, 0.5),
-    "LivingRoom": View("LivingRoom-Bitterli/LivingRoom-Bitterli.glb", SKY, "5.1052,0.7311,-2.3179", "4.1434,0.8055,-2.0544",
-                       58.7, 0.8, 1024),
-}
+GOALS = {"WaterBottle": Goal(0.5), "FlightHelmet": Goal(0.5), "ToyCar": Goal(0.5), "SheenChair": Goal(0.5),
+         "LivingRoom": Goal(0.8, 1024)}
 
 
 @dataclass
@@ -63,14 +49,8 @@ class Run:
 
 def run(command, report, parts_of):
     """Runs a renderer to its end; the times of it."""
-    start = time.perf_counter()
-    process = subprocess.Popen(command, stdout=subprocess.DEVNULL)
-    _, status, used = os.wait4(process.pid, 0)
-    seconds = time.perf_counter() - start
-    process.returncode = os.waitstatus_to_exitcode(status)  # so that Popen does not wait for it
-    if process.returncode != 0:
-        raise SystemExit(f"{' '.join(map(str, command))} ended with {process.returncode}; its message is above")
-    return seconds, used.ru_utime + used.ru_stime, parts_of(json.loads(report.read_text()))
+    cost = timed_process.run(command)
+    return cost.seconds, cost.processor, parts_of(json.loads(report.read_text()))
 
 
 class Lavalight:
@@ -83,7 +63,7 @@ class Lavalight:
     def render(self, view, samples, quality, seed, png):
         with tempfile.TemporaryDirectory() as folder:
             report = Path(folder, "report.json")
-            command = [self.binary, "render", self.assets / view.file, "--env", self.assets / view.environment, *view.options(),
+            command = [self.binary, "render", self.assets / view.file, "--env", self.assets / view.environment, *view.options(SIZE),
                        "--spp", str(samples), "--seed", str(seed), "--threads", str(self.threads), "--tonemap", "linear",
                        "-o", png, "--report", report, "--quiet"]
             if quality != "none":
@@ -108,7 +88,7 @@ class Cycles:
         with tempfile.TemporaryDirectory() as folder:
             report = Path(folder, "report.json")
             command = [sys.executable, ROOT / "tools/bench/denoised_cycles.py", self.assets / view.file,
-                       self.assets / view.environment, *view.options(), "--spp", str(samples), "--seed", str(seed),
+                       self.assets / view.environment, *view.options(SIZE), "--spp", str(samples), "--seed", str(seed),
                        "--threads", str(self.threads), "--out", png, "--report", report]
             denoiser, _, prefilter = quality.partition(", ")
             command += ["--quality", denoiser, *(["--prefilter", prefilter] if prefilter else [])]
@@ -123,10 +103,10 @@ class Contestant:
     """A renderer before one scene."""
 
     def __init__(self, renderer, scene, options):
-        self.renderer, self.scene, self.view = renderer, scene, VIEWS[scene]
+        self.renderer, self.scene, self.view = renderer, scene, views.VIEWS[scene]
         self.folder, self.target, self.most = options.out / "denoised", options.flip, options.most_samples
         self.folder.mkdir(parents=True, exist_ok=True)
-        samples = options.reference or self.view.reference
+        samples = options.reference or GOALS[scene].reference
         self.reference = self.picture(f"reference-{samples}")
         if not self.reference.exists():
             self.renderer.render(self.view, samples, "none", REFERENCE_SEED, self.reference)
@@ -193,7 +173,7 @@ def print_times(results, options):
         times = [f"{median_of(runs, 'seconds'):.2f} ({median_of(runs, 'processor'):.2f})" for runs in (ours, theirs)]
         settings = [f"{runs[0]['samples']}, {runs[0]['quality']}: {runs[0]['flip']:.3f}" for runs in (ours, theirs)]
         print(f"| {scene} | {times[0]} | {times[1]} | {ratio(ours, theirs, 'seconds'):.2f} "
-              f"({ratio(ours, theirs, 'processor'):.2f}) | {VIEWS[scene].target} | {settings[0]} | {settings[1]} |")
+              f"({ratio(ours, theirs, 'processor'):.2f}) | {GOALS[scene].ratio} | {settings[0]} | {settings[1]} |")
 
 
 def print_parts(results):
@@ -210,7 +190,7 @@ def print_parts(results):
 def parse_options():
     parser = argparse.ArgumentParser(prog="tools/bench/denoised", description="Seconds to a denoised picture beside Cycles.")
     parser.add_argument("--lavalight", default="build/release/lavalight", help="the binary to measure")
-    parser.add_argument("--scenes", nargs="+", default=list(VIEWS), choices=list(VIEWS))
+    parser.add_argument("--scenes", nargs="+", default=list(GOALS), choices=list(GOALS))
     parser.add_argument("--runs", type=int, default=3, help="of each renderer, alternated")
     parser.add_argument("--threads", type=int, default=os.cpu_count(), help="of both renderers")
     parser.add_argument("--flip", type=float, default=0.05, help="largest mean FLIP")
@@ -221,9 +201,9 @@ def parse_options():
     options = parser.parse_args()
     if options.quick:
         options.scenes, options.runs, options.reference = options.scenes[:1], 1, QUICK_REFERENCE
-    if "LAVALIGHT_ASSETS" not in os.environ:
+    options.assets = views.assets_folder()
+    if options.assets is None:
         raise SystemExit("tools/bench/denoised: LAVALIGHT_ASSETS is not set; tools/assets says which files belong in the folder")
-    options.assets = Path(os.environ["LAVALIGHT_ASSETS"]).resolve()
     options.lavalight = Path(options.lavalight).resolve()
     return options
 

@@ -4,6 +4,13 @@ Time to equal error: every renderer takes more and more samples of the same scen
 image is as near to the stored reference as asked: relMSE = mean((x - r)^2 / (r^2 + 0.01)) without pixels that see
 a light and without the worst 0.1 % of the others. Loading and compiling are not counted. Renderers take turns, so
 that whatever else the machine does meanwhile slows all of them; medians count.
+
+glTF scenes of LAVALIGHT_ASSETS are rendered by Lavalight and Cycles. Their materials differ a little between the
+programs, so each is held to a reference of its own, of many samples with another seed. One count of samples is
+measured, and its error is taken to fall with the samples. The reference's own error counts as the picture's: it
+adds their ratio of samples, to both renderers alike.
+
+Processor time, and all times of glTF scenes, are differences between two counts of samples.
 """
 import argparse
 import json
@@ -11,34 +18,28 @@ import math
 import os
 import statistics
 import subprocess
-import sys
-import tempfile
-import time
+from dataclasses import asdict, dataclass
 from pathlib import Path
 
 import numpy as np
-import OpenEXR
 
-import gltf_to_mitsuba
+import views
+from renderers import ROOT, Lavalight, cycles, mitsuba, read_rgb
 
-ROOT = Path(__file__).resolve().parents[2]
 REFERENCES = ROOT / "tests/references"
 STORED_SCENES = ["cornell-box", "cornell-glass", "many-lights", "veach-mis"]  # scenes with a reference
 # Flat, because each renderer reads smooth normals in its own way, and errors would not compare.
 DENSE_SCENES = ["dense-300000-flat", "dense-3000000-flat"]
-SCENES = STORED_SCENES + DENSE_SCENES
+GLTF_SCENES = {"flight-helmet": views.VIEWS["FlightHelmet"], "toy-car": views.VIEWS["ToyCar"],
+               "living-room": views.VIEWS["LivingRoom"], "classroom": views.VIEWS["Classroom"]}
+SCENES = STORED_SCENES + DENSE_SCENES + list(GLTF_SCENES)
 DENSE_SIZE = (256, 256)  # image size of scenes without a stored reference
 REFERENCE_SAMPLES = 512  # a pixel, in the reference that Lavalight then makes with another seed
 RAY_SCENES = ["cornell-box", "dense-300000", "dense-3000000"]
-MOST_SAMPLES = 4096
-MAX_BOUNCES = 64  # both renderers', as in the references
-ROULETTE_DEPTH = 5  # Mitsuba's default
+REFERENCE_SEED = 1000  # repeats have the seeds from 0 on
+FIRST_SAMPLES, MOST_SAMPLES = 64, 4096
+FEW_SAMPLES = 16  # what a render costs beside its samples is told by one of so many
 NEAR_ENOUGH = 2  # times the target: from there on the error is taken to fall with the samples
-
-
-def read_rgb(path):
-    channels = OpenEXR.File(str(path), separate_channels=True).channels()
-    return np.stack([channels[c].pixels for c in "RGB"], axis=-1).astype(float)
 
 
 def trimmed_error(image, reference, counted):
@@ -46,93 +47,16 @@ def trimmed_error(image, reference, counted):
     return float(np.sort(errors)[:math.ceil(0.999 * errors.size)].mean())
 
 
-def scene_file(scene, options):
-    """Path and environment of a scene for other renderers; procedural ones are exported."""
-    stored = ROOT / f"assets/{scene}.gltf"
-    if stored.exists():
-        return {"load": str(stored), "environment": [0, 0, 0]}
-    exported = options.out / f"{scene}.glb"
-    if not exported.exists():
-        subprocess.run([options.exporter, scene, exported], check=True)
-    document = gltf_to_mitsuba.Gltf(exported).json
-    return {"load": str(exported), "environment": document["scenes"][0]["extras"]["environment"]}
+@dataclass
+class Run:
+    seconds: float  # wall clock
+    processor: float  # seconds of processor time, user and system
+    error: float
 
 
-class Lavalight:
-    """One set of options of the program."""
-
-    def __init__(self, binary, name, options=()):
-        self.binary, self.name, self.options = binary, name, list(options)
-
-    def load(self, scene, size, _):
-        self.scene, self.size = scene, f"{size[0]}x{size[1]}"
-
-    def render(self, samples, seed, bounces=MAX_BOUNCES):
-        with tempfile.TemporaryDirectory() as folder:
-            exr, report = Path(folder, "image.exr"), Path(folder, "report.json")
-            subprocess.run([self.binary, "render", self.scene, "--size", self.size, "--spp", str(samples), "--seed",
-                            str(seed), "--max-bounces", str(bounces), "-o", exr, "--report", report, "--quiet",
-                            *self.options], check=True)
-            return read_rgb(exr), json.loads(report.read_text())["seconds"]["render"]
-
-
-class Served:
-    """A renderer in a process of its own, asked by lines of JSON."""
-
-    def __init__(self, name, command):
-        self.name = name
-        self.process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
-
-    def ask(self, **request):
-        print(json.dumps(request), file=self.process.stdin, flush=True)
-        answer = self.process.stdout.readline()
-        if not answer:
-            raise SystemExit(f"{self.name} ended; its message is above")
-        return json.loads(answer)
-
-    def load(self, scene, size, options):
-        with tempfile.TemporaryDirectory() as folder:
-            self.ask(**scene_file(scene, options), size=size, file=str(Path(folder, "image.exr")))
-
-    def render(self, samples, seed):
-        with tempfile.TemporaryDirectory() as folder:
-            file = str(Path(folder, "image.exr"))
-            seconds = self.ask(samples=samples, seed=seed, file=file)["seconds"]
-            return read_rgb(file), seconds
-
-
-def mitsuba(variant, threads):
-    """drjit keeps one thread pool for all variants: each has its process."""
-    return Served(f"Mitsuba {variant}", [sys.executable, __file__, "--serve", variant, "--threads", str(threads)])
-
-
-def cycles(python, threads):
-    return Served("Cycles", [python, str(ROOT / "tools/bench/bench_cycles.py"), "--threads", str(threads),
-                             "--bounces", str(MAX_BOUNCES)])
-
-
-def serve(variant, threads):
-    """The other end of Mitsuba: renders what it is told on stdin. Lights are weighted by their power."""
-    import drjit as dr
-    import mitsuba as mi
-    mi.set_variant(variant)
-    dr.set_thread_count(threads)
-    scene = None
-    for line in sys.stdin:
-        request = json.loads(line)
-        if "load" in request:
-            with tempfile.TemporaryDirectory() as folder:
-                description = gltf_to_mitsuba.load(mi, request["load"], request["size"], folder,
-                                                   environment=request["environment"])
-                description["integrator"] = {"type": "path", "max_depth": MAX_BOUNCES + 1, "rr_depth": ROULETTE_DEPTH}
-                scene = mi.load_dict(description)
-            print("{}", flush=True)
-            continue
-        start = time.perf_counter()
-        image = np.array(mi.render(scene, spp=request["samples"], seed=request["seed"]))
-        seconds = time.perf_counter() - start
-        mi.Bitmap(image).write(request["file"])
-        print(json.dumps({"seconds": seconds}), flush=True)
+def cost_of(samples, many, few):
+    """The time of so many samples alone, from that of a render of them and that of one of FEW_SAMPLES."""
+    return max((many - few) * samples / (samples - FEW_SAMPLES), 1e-3)
 
 
 def time_to(target, points):
@@ -145,60 +69,111 @@ def time_to(target, points):
     return seconds * error / target
 
 
+def kept(file, make):
+    """The picture in that file; it is made where there is none yet."""
+    if not file.exists():
+        np.save(file, make())
+    return np.load(file)
+
+
 def load_reference(scene, lavalight, options):
     stored = REFERENCES / f"{scene}.exr"
     if stored.exists():
         return read_rgb(stored)
-    made = options.out / f"{scene}-reference.npy"
-    if not made.exists():
+
+    def make():
         lavalight.load(scene, DENSE_SIZE, options)
-        np.save(made, lavalight.render(REFERENCE_SAMPLES, 1000)[0])
-    return np.load(made)
+        return lavalight.render(REFERENCE_SAMPLES, REFERENCE_SEED)[0]
+    return kept(options.out / f"{scene}-reference.npy", make)
+
+
+def own_reference(scene, renderer, options):
+    """A glTF scene as the renderer's program shows it, which has loaded it."""
+    width, height = options.size
+    name = f"{scene}-{renderer.program.lower()}-{width}x{height}-{options.reference_samples}-reference.npy"
+    return kept(options.out / name, lambda: renderer.render(options.reference_samples, REFERENCE_SEED)[0])
+
+
+def load_all(scene, size, renderers, options):
+    """Has every renderer load the scene and compile for it. Returns which pixels count: those that see no light."""
+    for renderer in renderers:
+        renderer.load(scene, size, options)
+        renderer.render(FEW_SAMPLES, 0)
+    lights, _ = renderers[0].render(64, 0, bounces=0)
+    return lights.sum(axis=-1) == 0
+
+
+def point(samples, runs):
+    """A count of samples on a renderer's curve."""
+    return {"samples": samples, **{key: statistics.median(getattr(run, key) for run in runs) for key in asdict(runs[0])},
+            "runs": [asdict(run) for run in runs]}
 
 
 def bench_scene(scene, renderers, options):
+    """Curves of a built-in scene, and its pixels."""
     reference = load_reference(scene, renderers[0], options)
     size = (reference.shape[1], reference.shape[0])
-    for renderer in renderers:
-        renderer.load(scene, size, options)
-        renderer.render(16, 0)  # compiles
-    lights, _ = renderers[0].render(64, 0, bounces=0)
-    counted = lights.sum(axis=-1) == 0
+    counted = load_all(scene, size, renderers, options)
+    few = {renderer.name: statistics.median(renderer.render(FEW_SAMPLES, seed)[1].processor for seed in range(3))
+           for renderer in renderers}
     curves = {renderer.name: [] for renderer in renderers}
     unfinished = list(renderers)
-    samples = 64
+    samples = FIRST_SAMPLES
     while unfinished and samples <= MOST_SAMPLES:
         runs = {renderer.name: [] for renderer in unfinished}
         for repeat in range(options.repeats):
             for renderer in unfinished:
-                image, seconds = renderer.render(samples, repeat)
-                runs[renderer.name].append((seconds, trimmed_error(image, reference, counted)))
+                image, cost = renderer.render(samples, repeat)
+                runs[renderer.name].append(Run(cost.seconds, cost_of(samples, cost.processor, few[renderer.name]),
+                                               trimmed_error(image, reference, counted)))
         for renderer in list(unfinished):
-            seconds, errors = zip(*runs[renderer.name])
-            curves[renderer.name].append({"samples": samples, "seconds": statistics.median(seconds),
-                                          "error": statistics.median(errors), "runs": runs[renderer.name]})
+            curves[renderer.name].append(point(samples, runs[renderer.name]))
             if curves[renderer.name][-1]["error"] <= NEAR_ENOUGH * options.target:
                 unfinished.remove(renderer)
         samples *= 4
     return curves, int(np.prod(size))
 
 
-def times_to(target, curve):
-    """The times of the repeats to reach the target."""
-    return [time_to(target, [p["runs"][repeat] for p in curve]) for repeat in range(len(curve[0]["runs"]))]
+def bench_gltf_scene(scene, renderers, options):
+    """Curves of a glTF scene, a point for each renderer that reads such files, and its pixels."""
+    renderers = [renderer for renderer in renderers if renderer.program != "Mitsuba"]
+    counted = load_all(GLTF_SCENES[scene], options.size, renderers, options)
+    references = {}
+    for renderer in renderers:
+        if renderer.program not in references:
+            references[renderer.program] = own_reference(scene, renderer, options)
+    runs = {renderer.name: [] for renderer in renderers}
+    for repeat in range(options.repeats):
+        for renderer in renderers:
+            few = renderer.render(FEW_SAMPLES, repeat)[1]
+            image, many = renderer.render(options.samples, repeat)
+            runs[renderer.name].append(Run(cost_of(options.samples, many.seconds, few.seconds),
+                                           cost_of(options.samples, many.processor, few.processor),
+                                           trimmed_error(image, references[renderer.program], counted)))
+    return {name: [point(options.samples, own)] for name, own in runs.items()}, int(np.prod(options.size))
+
+
+def times_to(target, curve, clock):
+    """The times of the repeats to reach the target, by "seconds" or "processor"."""
+    return [time_to(target, [(p["runs"][repeat][clock], p["runs"][repeat]["error"]) for p in curve])
+            for repeat in range(len(curve[0]["runs"]))]
 
 
 def print_curves(scene, curves, pixels, options):
     """Ratios are Lavalight's time over the other's, of runs that took turns: their median and their range."""
-    print(f"\n{scene}: seconds to relMSE {options.target} ({options.repeats} runs each, alternated)")
-    print(f"{'':28}{'seconds':>9}{'ratio of ours':>15}{'range':>13}{'ns a path':>11}{'error at 64':>13}")
-    ours = times_to(options.target, next(iter(curves.values())))
+    first = next(iter(curves.values()))
+    print(f"\n{scene}: seconds to relMSE {options.target} ({options.repeats} runs each, alternated), of wall and of processor time")
+    print(f"{'':28}{'wall':>9}{'ratio of ours':>15}{'range':>13}{'ns a path':>11}{'processor':>11}{'ratio':>7}{'range':>13}"
+          f"{'ns a path':>11}{'error at ' + str(first[0]['samples']):>15}")
     for name, curve in curves.items():
-        seconds = times_to(options.target, curve)
-        ratios = [a / b for a, b in zip(ours, seconds)]
-        cost = 1e9 * curve[-1]["seconds"] / curve[-1]["samples"] / pixels
-        print(f"{name:28}{statistics.median(seconds):9.2f}{statistics.median(ratios):15.2f}"
-              f"{min(ratios):7.2f}-{max(ratios):.2f}{cost:12.0f}{curve[0]['error']:13.4f}", flush=True)
+        cells = ""
+        for clock, widths in (("seconds", (9, 15)), ("processor", (11, 7))):
+            ours, theirs = times_to(options.target, first, clock), times_to(options.target, curve, clock)
+            ratios = [a / b for a, b in zip(ours, theirs)]
+            cost = 1e9 * curve[-1][clock] / curve[-1]["samples"] / pixels
+            cells += (f"{statistics.median(theirs):{widths[0]}.2f}{statistics.median(ratios):{widths[1]}.2f}"
+                      f"{f'{min(ratios):.2f}-{max(ratios):.2f}':>13}{cost:11.0f}")
+        print(f"{name:28}{cells}{curve[0]['error']:15.4f}", flush=True)
 
 
 def bench_rays(options):
@@ -230,8 +205,17 @@ def plot(results, path, target):
     figure.savefig(path)
 
 
+def size_of(text):
+    width, height = (int(number) for number in text.split("x"))
+    return width, height
+
+
 def parse_options():
-    parser = argparse.ArgumentParser(prog="tools/bench/equal_error", description="Speed beside Embree, Mitsuba 3 and Cycles.")
+    parser = argparse.ArgumentParser(
+        prog="tools/bench/equal_error", description="Speed beside Embree, Mitsuba 3 and Cycles.",
+        epilog=f"{', '.join(GLTF_SCENES)} are glTF scenes of LAVALIGHT_ASSETS, rendered by Lavalight and Cycles. Each program is held "
+               "to a reference of its own, since their materials differ a little. References are kept in --out: delete them there "
+               "once pictures have changed.")
     parser.add_argument("--lavalight", default="build/release/lavalight", help="the binary to measure")
     parser.add_argument("--exporter", default="build/release/export_scene", help="the program export_scene")
     parser.add_argument("--cycles", help="a Python that has bpy; without it, Cycles is left out")
@@ -243,33 +227,55 @@ def parse_options():
     parser.add_argument("--repeats", type=int, default=5)
     parser.add_argument("--target", type=float, default=0.003, help="relMSE")
     parser.add_argument("--threads", type=int, default=os.cpu_count(), help="of every renderer")
+    parser.add_argument("--size", type=size_of, default=(256, 256), metavar="WxH", help="of glTF scenes' pictures; default: 256x256")
+    parser.add_argument("--samples", type=int, default=128, help="a pixel of glTF scenes; default: 128")
+    parser.add_argument("--reference-samples", type=int, default=2048, help="a pixel of glTF scenes' references; default: 2048")
     parser.add_argument("--out", type=Path, default=Path("out/bench"))
-    parser.add_argument("--serve", help=argparse.SUPPRESS)
-    return parser.parse_args()
+    options = parser.parse_args()
+    if options.samples <= FEW_SAMPLES:
+        parser.error(f"cannot measure {options.samples} samples: they are compared with {FEW_SAMPLES}; try more")
+    options.lavalight = str(Path(options.lavalight).resolve())
+    options.assets = views.assets_folder()
+    return options
+
+
+def scenes_at_hand(options):
+    """The scenes asked for, without those whose assets are nowhere."""
+    gltf = [scene for scene in options.scenes if scene in GLTF_SCENES]
+    if gltf and options.assets is None:
+        print(f"{', '.join(gltf)}: left out, since LAVALIGHT_ASSETS is not set; tools/assets says which files belong in the folder",
+              flush=True)
+        return [scene for scene in options.scenes if scene not in gltf]
+    for file in (file for scene in gltf for file in GLTF_SCENES[scene].files(options.assets)):
+        if not file.is_file():
+            raise SystemExit(f"tools/bench/equal_error: cannot read {file}: no such file; try tools/assets {options.assets}")
+    return options.scenes
+
+
+def write_results(rays, results, options):
+    (options.out / "bench.json").write_text(json.dumps(
+        {"threads": options.threads, "target": options.target, "repeats": options.repeats, "rays": rays,
+         "scenes": results}, indent=2) + "\n")
 
 
 def main():
     options = parse_options()
-    if options.serve:
-        serve(options.serve, options.threads)
-        return
-    options.lavalight = str(Path(options.lavalight).resolve())
     options.out.mkdir(parents=True, exist_ok=True)
+    scenes = scenes_at_hand(options)
     rays = bench_rays(options)
-    os.environ["LP_NUM_THREADS"] = str(options.threads)
-    renderers = [Lavalight(options.lavalight, f"Lavalight, {schedule}", ["--schedule", schedule])
+    renderers = [Lavalight(options.lavalight, f"Lavalight, {schedule}", options.threads, ["--schedule", schedule])
                  for schedule in options.schedules]
     renderers += [mitsuba(variant, options.threads) for variant in options.variants]
     if options.cycles:
         renderers.append(cycles(options.cycles, options.threads))
     results = {}
-    for scene in options.scenes:
-        curves, pixels = bench_scene(scene, renderers, options)
+    write_results(rays, results, options)
+    for scene in scenes:
+        bench = bench_gltf_scene if scene in GLTF_SCENES else bench_scene
+        curves, pixels = bench(scene, renderers, options)
         print_curves(scene, curves, pixels, options)
         results[scene] = curves
-    (options.out / "bench.json").write_text(json.dumps(
-        {"threads": options.threads, "target": options.target, "repeats": options.repeats, "rays": rays,
-         "scenes": results}, indent=2) + "\n")
+        write_results(rays, results, options)
     if results:
         plot(results, options.out / "bench.svg", options.target)
 
