@@ -14,7 +14,7 @@ VALUES = {
     "hemisphere": "uniform", "nee": False, "light_selection": "power", "mis": "balance", "roulette": "off", "roulette_start": 2,
     "roulette_probability": 0.7, "mis_survival": True, "fresnel": "schlick", "multiple_scattering": True,
     "texture_filter": "stochastic", "smooth_terminator": False, "max_bounces": 2, "clamp_indirect": 3.0, "filter": "tent",
-    "filter_radius": 1.5, "seed": 7, "device": 0, "require_device": "cpu", "schedule": "fused", "wave_size": 5000, "band_rows": 4,
+    "filter_radius": 1.5, "seed": 7, "device": 0, "require_device": "cpu", "schedule": "fused", "accelerator": "bvh8", "wave_size": 5000, "band_rows": 4,
     "crop": (2, 2, 8, 8), "camera": 0, "look_from": (0.0, 1.0, 3.5), "look_at": (0, 1, 0), "up": (0, 1, 0), "fov": 40,
     "aperture": 0.1, "focus": 2.0, "view": "front", "panorama": True, "no_clip": True, "tonemap": "agx", "exposure": -1.5,
     "background": "transparent", "ground": "#808080", "intrinsics": (30.0, 25, 8, 6.5), "clip": (0.1, 10), "layers": ["normal", "depth"], "denoise": None, "kernel_timeout": 100,
