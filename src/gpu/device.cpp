@@ -94,8 +94,6 @@ Device::Device(const DeviceConfig& config)
     runsAhead_ = config.runsAhead || !description_.isCpu;
     storesTexels_ = config.storesTexels || !hasTexelBuffers(physical_.getProperties().limits);
 
-    VariablesForNow variables;
-    instance_.setVariables(variables);
     device_ = checked("open", description_.name,
                       [&] { return openDevice(physical_, queueFamily_, description_.tracesRays); });
     queue_ = vk::raii::Queue(device_, queueFamily_, 0);

@@ -126,9 +126,15 @@ DriverOffer::DriverOffer(bool knowsDirectDrivers) {
         prepend("VK_LOADER_DRIVERS_DISABLE", "lvp_icd*", ','); // the names of Mesa's manifests
 }
 
+DriverOffer::~DriverOffer() {
+    for (const auto& [variable, value] : before_)
+        value ? ::setenv(variable, value->c_str(), 1) : ::unsetenv(variable);
+}
+
 void DriverOffer::prepend(const char* variable, const std::string& value, char separator) {
     const char* others = std::getenv(variable);
-    variables_.set(variable, others == nullptr ? value : value + separator + others);
+    before_.emplace_back(variable, others == nullptr ? std::nullopt : std::optional<std::string>(others));
+    ::setenv(variable, (others == nullptr ? value : value + separator + others).c_str(), 1);
 }
 
 } // namespace lavalight::gpu

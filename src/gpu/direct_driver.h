@@ -2,11 +2,12 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <vulkan/vulkan_core.h>
-
-#include "base/os/environment.h"
 
 namespace lavalight::gpu {
 
@@ -27,6 +28,9 @@ class DriverOffer {
     // driver's manifest, a .json file of the same name beside the library. Throws Error for a library that is
     // not a driver, and for one without a manifest where the loader needs it.
     explicit DriverOffer(bool knowsDirectDrivers);
+    ~DriverOffer();
+    DriverOffer(const DriverOffer&) = delete;
+    DriverOffer& operator=(const DriverOffer&) = delete;
 
     // The driver's part of VkInstanceCreateInfo. None: no driver was named, by useDriver() or
     // kDriverVariable, or the loader has the manifest.
@@ -36,7 +40,7 @@ class DriverOffer {
     void prepend(const char* variable, const std::string& value, char separator);
 
     const VkDirectDriverLoadingListLUNARG* direct_ = nullptr;
-    VariablesForNow variables_;
+    std::vector<std::pair<const char*, std::optional<std::string>>> before_;
 };
 
 } // namespace lavalight::gpu

@@ -1,7 +1,6 @@
 #include "gpu/instance.h"
 
 #include <array>
-#include <atomic>
 #include <mutex>
 #include <string_view>
 
@@ -10,7 +9,6 @@
 #include "base/error.h"
 #include "gpu/direct_driver.h"
 #include "gpu/vulkan_error.h"
-#include "gpu/wide_vectors.h"
 
 namespace lavalight::gpu {
 
@@ -93,37 +91,6 @@ vk::raii::Instance makeInstance(const vk::raii::Context& context, bool validate,
         "the Vulkan instance (is a driver installed? Debian's mesa-vulkan-drivers has one for CPUs)", create);
 }
 
-// Drivers read the width when they are asked for their devices.
-vk::raii::Instance startDrivers(const vk::raii::Context& context, bool validate,
-                                std::span<const char* const> extensions, bool withWideVectors) {
-    VariablesForNow variables;
-    if (withWideVectors)
-        askForWideVectors(variables);
-    vk::raii::Instance instance = makeInstance(context, validate, extensions);
-    checked("list", "the Vulkan devices", [&] { return instance.enumeratePhysicalDevices().size(); });
-    return instance;
-}
-
-// What the first instance of the process finds out holds for all.
-std::atomic<bool>& usesWideVectors() {
-    static std::atomic<bool> isWide = false;
-    return isWide;
-}
-
-vk::raii::Instance startDrivers(const vk::raii::Context& context, bool validate,
-                                std::span<const char* const> extensions) {
-    std::atomic<bool>& isWide = usesWideVectors();
-    vk::raii::Instance instance = startDrivers(context, validate, extensions, isWide);
-    if (isWide || !gainsByWideVectors(instance))
-        return instance;
-    isWide = true;
-    {
-        const auto lock = lockLoader();
-        instance = nullptr;
-    }
-    return startDrivers(context, validate, extensions, true);
-}
-
 } // namespace
 
 std::unique_lock<std::mutex> lockLoader() {
@@ -133,7 +100,7 @@ std::unique_lock<std::mutex> lockLoader() {
 
 Instance::Instance(bool validate, std::span<const char* const> extensions)
     : context_(makeContext()), messages_(std::make_unique<MessageLog>()),
-      instance_(startDrivers(context_, validate, extensions)) {
+      instance_(makeInstance(context_, validate, extensions)) {
     if (!validate)
         return;
     // The C structure: Vulkan-Hpp 1.4 (Debian 13) declares the callback with other types than 1.3.
@@ -153,11 +120,6 @@ Instance::~Instance() {
     const auto lock = lockLoader();
     messenger_ = nullptr;
     instance_ = nullptr;
-}
-
-void Instance::setVariables(VariablesForNow& variables) const {
-    if (usesWideVectors())
-        askForWideVectors(variables);
 }
 
 std::vector<vk::raii::PhysicalDevice> Instance::physicalDevices() const {

@@ -9,8 +9,6 @@
 
 #include <vulkan/vulkan_raii.hpp>
 
-#include "base/os/environment.h"
-
 namespace lavalight::gpu {
 
 // Held while an instance or a device is made or destroyed. Vulkan promises that threads may do so at the same
@@ -29,9 +27,6 @@ class Instance {
 
     [[nodiscard]] const vk::raii::Instance& handle() const { return instance_; }
     [[nodiscard]] std::vector<vk::raii::PhysicalDevice> physicalDevices() const;
-
-    // Sets what drivers read of the environment where a device is opened.
-    void setVariables(VariablesForNow& variables) const;
 
     // What the validation layer said so far, oldest first. Empty without `validate`.
     [[nodiscard]] std::vector<std::string> validationMessages() const;

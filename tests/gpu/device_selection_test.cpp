@@ -2,12 +2,10 @@
 #include "gpu/device_selection.h"
 
 #include <algorithm>
-#include <cstdlib>
 
 #include <gtest/gtest.h>
 
 #include "base/error.h"
-#include "gpu/wide_vectors.h"
 #include "kernels/kernel_source.h"
 #include "kernels/shader_overlay.h"
 
@@ -138,32 +136,6 @@ TEST(DeviceSelection, NoKernelDeclaresMoreBuffersThanAreAskedFor) {
     }
     EXPECT_GT(kernels, 10u);
     EXPECT_GE(mostTexelBuffers, 15u) << "the limit is a measured one";
-}
-
-TEST(WideVectors, AreForLavapipesThatGainByThem) {
-    const char* name = "llvmpipe (LLVM 19.1.7, 256 bits)";
-    EXPECT_TRUE(gainsByWideVectors("Mesa 25.0.7-2 (LLVM 19.1.7)", name, true));
-    EXPECT_TRUE(gainsByWideVectors("Mesa 26.1.0", name, true));
-    EXPECT_FALSE(gainsByWideVectors("Mesa 24.3.1", name, true));
-    EXPECT_FALSE(gainsByWideVectors("Mesa 22.3.6 (LLVM 15.0.6)", name, true));
-    EXPECT_FALSE(gainsByWideVectors("Mesa 25.0.7", name, false)); // the processor has none
-    EXPECT_FALSE(gainsByWideVectors("Mesa 25.0.7", "llvmpipe (LLVM 19.1.7, 512 bits)", true));
-    EXPECT_FALSE(gainsByWideVectors("Mesa 25.0.7", "llvmpipe (LLVM 19.1.7, 128 bits)", true));
-    EXPECT_FALSE(gainsByWideVectors("a driver of another make", name, true));
-}
-
-// What a device's driver reads is not what programs find that start later.
-TEST(WideVectors, VariablesComeBack) {
-    ::setenv("MESA_SHADER_CACHE_DIR", "/somewhere", 1);
-    {
-        VariablesForNow variables;
-        askForWideVectors(variables);
-        EXPECT_STREQ(std::getenv("LP_NATIVE_VECTOR_WIDTH"), "512");
-        EXPECT_STREQ(std::getenv("MESA_SHADER_CACHE_DIR"), "/somewhere/mesa-512-bits");
-    }
-    EXPECT_EQ(std::getenv("LP_NATIVE_VECTOR_WIDTH"), nullptr);
-    EXPECT_STREQ(std::getenv("MESA_SHADER_CACHE_DIR"), "/somewhere");
-    ::unsetenv("MESA_SHADER_CACHE_DIR");
 }
 
 } // namespace
