@@ -54,8 +54,9 @@ function(lavalight_embed_files lib)
     target_sources(lavalight_${lib} PRIVATE ${out})
 endfunction()
 
-# lavalight_embed_kernels(TARGET NAMESPACE ns FILES k.comp...): compiles kernels with the program's own compiler,
-# so that a shader error fails the build, inlines them, and embeds the SPIR-V as `ns::find(name)`.
+# lavalight_embed_kernels(TARGET [EACH_ACCELERATOR] NAMESPACE ns FILES k.comp...): compiles kernels with the program's own
+# compiler, so that a shader error fails the build, inlines them, and embeds the SPIR-V as `ns::find(name)`. EACH_ACCELERATOR:
+# those whose files ask about rays are there once for each accelerator.
 function(lavalight_embed_kernels target)
     cmake_parse_arguments(ARG "EACH_ACCELERATOR" "NAMESPACE" "FILES" ${ARGN})
     set(dir ${CMAKE_BINARY_DIR}/generated/${target})

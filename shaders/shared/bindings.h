@@ -53,6 +53,8 @@
 #define BINDING_RECORDS_IN 32
 #define BINDING_RECORDS_OUT 33
 
-#define BINDING_TRIANGLE_STRUCTURE 37 // the accelerator "ray_query", read only
+// The accelerator "ray_query", read only.
+#define BINDING_TRIANGLE_STRUCTURE 37
+#define BINDING_STRUCTURE_EXTENT 38
 
 #endif

@@ -1,5 +1,6 @@
 #include "device_scene/accelerator.h"
 
+#include <algorithm>
 #include <numeric>
 
 #include "device_scene/upload.h"
@@ -13,6 +14,13 @@ std::vector<TriangleRecord> inOrderOf(const AcceleratorData& data,
     for (const uint32_t triangle : data.trianglesOfRecords(triangles.size()))
         records.push_back(triangles[triangle]);
     return records;
+}
+
+float largestCoordinate(std::span<const TriangleRecord> triangles) {
+    glm::vec3 largest(0.0f);
+    for (const TriangleRecord& t : triangles)
+        largest = glm::max(largest, glm::max(glm::abs(t.v0), glm::max(glm::abs(t.v1), glm::abs(t.v2))));
+    return std::max({largest.x, largest.y, largest.z});
 }
 
 } // namespace
@@ -55,7 +63,9 @@ Accelerator::Accelerator(gpu::Device& device, const AcceleratorData& data,
                          std::span<const TriangleRecord> triangles)
     : kind_(data.kind), bvhSeconds_(data.bvh.buildSeconds), embree_(data.embree),
       nodes_(uploadTexels(device, "BVH nodes", data.bvh.nodes)),
-      triangles_(uploadTexels(device, "triangles", inOrderOf(data, triangles), gpu::BufferUse::corners)) {
+      triangles_(uploadTexels(device, "triangles", inOrderOf(data, triangles), gpu::BufferUse::corners)),
+      extent_(uploadTexels(device, "extent of the structure",
+                           std::vector{glm::vec4(largestCoordinate(triangles), 0.0f, 0.0f, 0.0f)})) {
     static_assert(sizeof(TriangleRecord) == gpu::TriangleStructure::kTriangleBytes);
     if (kind_ == AcceleratorKind::rayQuery)
         structure_.emplace(device, triangles_, triangles.size());
@@ -75,6 +85,7 @@ void Accelerator::addTo(gpu::ResourceTable& resources) const {
     resources.set("triangles", triangles_);
     if (structure_)
         resources.set("triangleStructure", *structure_);
+    resources.set("structureExtent", extent_);
 }
 
 } // namespace lavalight

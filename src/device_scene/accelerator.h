@@ -27,7 +27,7 @@ enum class AcceleratorKind {
     rayQuery // built by the device, and traversed where kernels ask it (VK_KHR_ray_query)
 };
 
-// The name of its kernels (kernels/accelerator_name.h). Those of Embree trace nothing.
+// The name that its kernels have (kernels/accelerator_name.h). Kernels trace nothing where Embree does.
 [[nodiscard]] std::string_view kernelAccelerator(AcceleratorKind kind);
 
 // An accelerator before it is uploaded. Which builder made the tree decides no bit of a film.
@@ -72,6 +72,7 @@ class Accelerator {
     gpu::Buffer nodes_;
     gpu::Buffer triangles_;
     std::optional<gpu::TriangleStructure> structure_; // of AcceleratorKind::rayQuery, over triangles_
+    gpu::Buffer extent_;                              // the largest coordinate, for the same
 };
 
 } // namespace lavalight

@@ -140,6 +140,8 @@ void Commands::build(const vk::AccelerationStructureBuildGeometryInfoKHR& geomet
     using Stage = vk::PipelineStageFlagBits;
     const vk::AccelerationStructureBuildRangeInfoKHR range(primitives, 0, 0, 0);
     const vk::raii::CommandBuffer& commands = recorded(buffers_);
+    const vk::MemoryBarrier copied(Access::eTransferWrite, Access::eShaderRead);
+    commands.pipelineBarrier(Stage::eTransfer, Stage::eAccelerationStructureBuildKHR, {}, copied, {}, {});
     commands.buildAccelerationStructuresKHR(geometry, &range);
     const vk::MemoryBarrier barrier(Access::eAccelerationStructureWriteKHR,
                                     Access::eAccelerationStructureReadKHR |

@@ -224,7 +224,6 @@ void ShaderRays::traceTogether(uint32_t bounce, std::span<const uint32_t> slots,
         to.id[i] = i;
         to.flags[i] = 0;
         packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
-        hits[i] = {end, 0, vec2(0.0f)};
     }
     Query query = makeQuery(*this, lanes.data(), Likeness::coherent);
     intersect(embree, query, valid.data(), packet);

@@ -32,9 +32,8 @@ struct HostScene {
 // `scene` must outlive the result, and its accelerator be Embree's.
 [[nodiscard]] HostScene hostScene(const GpuScene& scene, SceneFeatures features);
 
-// The kernels that trace what the host traces. Schedule::hosted does not run them. The last takes triangles
-// that another traversal proposes, as the host takes Embree's.
-inline constexpr std::array<std::string_view, 3> kTracingKernels{"extend", "connect", "connect@ray_query"};
+// Kernels with the code that the host runs. Schedule::hosted does not run them.
+inline constexpr std::array<std::string_view, 3> kTracingKernels{"extend", "connect", "hosted/proposed"};
 
 // Whether kernels by `source` trace rays as the host does: it runs the code that the build embedded. Throws
 // Error where one does not compile.

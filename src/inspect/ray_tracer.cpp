@@ -26,7 +26,7 @@ gpu::Kernel makeKernel(const gpu::Device& device, std::string_view file, Acceler
     return {device, embeddedKernel(textOf({file, kernelAccelerator(accelerator)})), constants};
 }
 
-// Which the host takes for that of a bounce: it culls no back faces, and ends nowhere.
+// The bounce of the rays: after the camera's, which culls no back faces and ends nowhere.
 constexpr uint32_t kBounce = 1;
 
 TracedHit tracedHit(const Hit& hit) {

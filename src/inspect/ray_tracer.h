@@ -26,7 +26,7 @@ class RayTracer {
 
     // The first hit with t > 0 of each ray, from either side, but not of the triangle that it starts on.
     [[nodiscard]] std::vector<TracedHit> closest(std::span<const Ray> rays);
-    // The same by HostRays::kRaysTogether neighbours at once; the scene's accelerator must be Embree's.
+    // closest(), with HostRays::kRaysTogether neighbours at once. The scene's accelerator must be Embree's.
     [[nodiscard]] std::vector<TracedHit> closestTogether(std::span<const Ray> rays);
     // A flag for each ray: 1 where anything but the triangles that the ray starts and ends on lies at
     // 0 < t < 1. Contributions are ignored.

@@ -1,13 +1,18 @@
 #include "kernels/kernel_source.h"
 
+#include <algorithm>
+
 #include "embedded_kernels.h"
 #include "kernels/accelerator_name.h"
 
 namespace lavalight {
 
 gpu::KernelCode embeddedKernel(std::string_view name) {
-    // A kernel that traces no rays is the same with every accelerator.
-    return embedded_kernels::find(embedded_kernels::contains(name) ? name : parseKernelName(name).file);
+    const KernelName parsed = parseKernelName(name);
+    const bool isKnown =
+        std::ranges::find(kKernelAccelerators, parsed.accelerator) != kKernelAccelerators.end();
+    // A kernel that is not there with an accelerator traces no rays: it is the same with all.
+    return embedded_kernels::find(!isKnown || embedded_kernels::contains(name) ? name : parsed.file);
 }
 
 } // namespace lavalight

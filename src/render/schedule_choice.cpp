@@ -43,10 +43,10 @@ void requireFits(RayAccelerator accelerator, Schedule schedule) {
     const bool isHosted = schedule == Schedule::hosted;
     if (accelerator == RayAccelerator::automatic || (accelerator == RayAccelerator::embree) == isHosted)
         return;
-    throw Error(fmt::format("cannot use the accelerator {} with the schedule {}: {}; try --schedule {}",
-                            nameOf(accelerator), nameOf(schedule),
-                            isHosted ? "Embree traces its rays" : "kernels trace its rays",
-                            isHosted ? nameOf(Schedule::fused) : nameOf(Schedule::hosted)));
+    throw UsageError(fmt::format("cannot use the accelerator {} with the schedule {}: {}; try --schedule {}",
+                                 nameOf(accelerator), nameOf(schedule),
+                                 isHosted ? "Embree traces its rays" : "kernels trace its rays",
+                                 isHosted ? nameOf(Schedule::fused) : nameOf(Schedule::hosted)));
 }
 
 } // namespace

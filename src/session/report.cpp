@@ -166,6 +166,7 @@ void fillInputs(RenderReport& report, const Scene& scene, const RenderSettings& 
 void fillResults(RenderReport& report, const Renderer& renderer, const gpu::Device& device,
                  const Rendering& rendering, const Scene& scene) {
     report.device = device.description();
+    report.accelerator = nameOf(renderer.settings().work.accelerator);
     report.content = fingerprintsOf(renderer);
     report.kernels = renderer.waves().kernelTimes();
     report.rays = renderer.waves().rays();
@@ -215,6 +216,7 @@ std::string reportJson(const RenderReport& report) {
                       {"driver", report.device.driver},
                       {"type", report.device.type},
                       {"api", report.device.apiVersion}};
+    json["accelerator"] = report.accelerator;
     json["processor"] = processorKind();
     json["settings"] = pairsJson(describeOptions(report));
     if (report.tone)

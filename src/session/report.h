@@ -31,7 +31,8 @@ struct RenderReport {
     std::string camera;
     RenderSettings settings;
     gpu::DeviceDescription device;
-    Fingerprints content; // fingerprints of what was rendered
+    std::string accelerator; // by its name as a setting
+    Fingerprints content;    // fingerprints of what was rendered
     StageTimes stages;
     double renderSeconds = 0.0;
     gpu::KernelTimes kernels;

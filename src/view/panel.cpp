@@ -23,10 +23,11 @@ void chooseSchedule(ViewState& view) {
     for (const SettingName<Schedule>& name : settingNames<Schedule>())
         if (view.canBeHosted || name.value != Schedule::hosted)
             names.push_back(name);
-    chooseAmong<Schedule>(
-        "schedule", names, view.settings.work.schedule,
-        "One kernel for whole paths, or one for each step with queues between them, or rays "
-        "traced by the host");
+    if (chooseAmong<Schedule>(
+            "schedule", names, view.settings.work.schedule,
+            "One kernel for whole paths, or one for each step with queues between them, or rays "
+            "traced by the host"))
+        view.settings.work.accelerator = RayAccelerator::automatic; // one of that schedule
 }
 
 void drawEstimators(ViewState& view) {

@@ -60,14 +60,20 @@ Viewer::Viewer(ViewerConfig config)
     : view_(std::move(config.view)), window_(makeWindow(view_)), presenter_(window_, config.device.validate),
       render_(config.device, &Window::wake), loader_(loadOrder, &Window::wake),
       shaders_(std::move(config.shaders)) {
+    const RayAccelerator accelerator = view_.settings.work.accelerator;
     view_.settings = resolveSchedule(view_.settings, render_.device());
+    view_.settings.work.accelerator = accelerator; // follows the schedule that the panel chooses
     view_.light = view_.settings.lighting;
     view_.ground = view_.settings.ground;
     if (!config.watched.empty())
-        watcher_.emplace(config.watched, shaders_, decisiveKernels(view_.settings), &Window::wake);
+        watcher_.emplace(config.watched, shaders_, watchedKernels(view_.settings), &Window::wake);
     view_.canBeHosted = render_.device().sharesMemory;
     sayWhatTraces();
     ImGui::GetIO().FontGlobalScale = window_.textScale() / window_.pixelsPerPoint().y;
+}
+
+std::vector<std::string> Viewer::watchedKernels(const RenderSettings& settings) const {
+    return decisiveKernels(resolveSchedule(settings, render_.device()));
 }
 
 void Viewer::run() {
@@ -332,7 +338,7 @@ void Viewer::send() {
     if (inspection_ && (!sent_ || restartsImage(*sent_, request) != Restart::nothing))
         inspection_.reset(); // it was of another image
     if (watcher_)
-        watcher_->use(decisiveKernels(request.settings));
+        watcher_->use(watchedKernels(request.settings));
     sent_ = request;
     isReady_ = false;
     render_.show(request);

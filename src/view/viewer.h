@@ -54,6 +54,7 @@ class Viewer {
     void sayWhatTraces(); // where shaders keep the host from it
     void updateTitle();
     [[nodiscard]] size_t sideOfMouse() const;
+    [[nodiscard]] std::vector<std::string> watchedKernels(const RenderSettings& settings) const;
     [[nodiscard]] double patience() const;
     [[nodiscard]] glm::vec2 points() const; // size of the window in screen coordinates
 

@@ -145,6 +145,37 @@ TEST_F(OtherTrees, TheDevicesAmongThemGiveTheSamePicture) {
     }
 }
 
+// Triangles far larger than their distance from the world's origin and from the camera: what rounds is their
+// size.
+TEST_F(OtherTrees, TheDevicesFindLargeTrianglesThatCoincide) {
+    if (!device().tracesRays())
+        GTEST_SKIP() << "the device has no VK_KHR_ray_query";
+    SceneBuilder builder;
+    for (const glm::vec3& color : {glm::vec3(0.8f, 0.1f, 0.1f), glm::vec3(0.1f, 0.8f, 0.1f)})
+        builder.add(rectangle({0, 0, 0}, {1.1f, 0.1f, 0}, {-0.1f, 1.0f, 0}), colored(color));
+    const Scene scene =
+        builder.environment(glm::vec3(1.0f)).camera(lookAt({0, 0.002f, 0.002f}, {0, 0, 0}, 0.9f)).build();
+    RenderSettings settings = imageSettings(kSize, kSize, 4);
+    settings.work = {.schedule = Schedule::fused, .accelerator = RayAccelerator::bvh8};
+    const Rendering kernels = renderScene(device(), scene, settings).rendering;
+    settings.work.accelerator = RayAccelerator::rayQuery;
+    EXPECT_LE(shareThatDiffers(kernels, renderScene(device(), scene, settings).rendering), 0.001);
+}
+
+// The host traces camera rays together: waves put other rays beside each, here where alpha, back faces and
+// coincident surfaces answer for each ray by itself.
+TEST_F(OtherTrees, WavesOfTheHostGiveTheSameFilm) {
+    if (!device().description().sharesMemory)
+        GTEST_SKIP() << "the host does not reach the device's memory";
+    RenderSettings settings = imageSettings(kSize, kSize, 3);
+    settings.work.schedule = Schedule::hosted;
+    const std::vector<uint32_t> film = renderScene(device(), scene_, settings).filmWords;
+    for (const uint32_t waveSize : {65u, 1001u}) {
+        settings.work.waveSize = waveSize;
+        EXPECT_EQ(renderScene(device(), scene_, settings).filmWords, film) << waveSize;
+    }
+}
+
 // By the rule for triangles at equal distance, and not because there are none.
 TEST_F(OtherTrees, GiveOtherFilmsWhereTheFirstTriangleMetWins) {
     prepare(Schedule::fused, [](std::string_view kernel) {

@@ -12,24 +12,31 @@
 
 layout(set = 0, binding = BINDING_TRIANGLE_STRUCTURE) uniform accelerationStructureEXT triangleStructure;
 
+// One texel: a length in x, in units of the world, that no coordinate of the scene exceeds.
+layout(set = 0, binding = BINDING_STRUCTURE_EXTENT) uniform utextureBuffer structureExtent;
+
 const float kFarthestOrigin = 1e18; // a ray that starts beyond meets nothing
 const float kLongestRay = 3e38;
 const float kSetBack = 1e-5; // of the largest coordinate
 
-bool isTraceable(vec3 origin, vec3 direction) {
-    return all(lessThanEqual(abs(origin), vec3(kFarthestOrigin))) && all(lessThanEqual(abs(direction), vec3(kFarthestOrigin)));
+bool isTraceable(vec3 origin, vec3 direction, float tMax) {
+    const bool isNear = all(lessThanEqual(abs(origin), vec3(kFarthestOrigin))) &&
+                        all(lessThanEqual(abs(direction), vec3(kFarthestOrigin)));
+    return isNear && tMax > 0.0 && dot(direction, direction) > 0.0;
 }
 
-// How far before its start a ray sets out on the device, in units of t: what lies at the start itself, such as a surface
-// that coincides with the one there, is proposed as well. Our test leaves out what is behind.
+// How far before its start a ray sets out on the device, and how far behind its end it goes, in units of t: what lies at the
+// start itself, such as a surface that coincides with the one there, is proposed as well. The device's test rounds by the
+// size of coordinates, the origin's and the triangle's. Our own test leaves out what is behind.
 float setBack(vec3 origin, vec3 direction) {
     const vec3 size = abs(origin);
-    return kSetBack * max(max(size.x, size.y), size.z) / length(direction);
+    const float extent = uintBitsToFloat(texelFetch(structureExtent, 0).x);
+    return kSetBack * max(max(max(size.x, size.y), size.z), extent) / length(direction);
 }
 
 // What to look for among the triangles that a ray meets.
 const uint kNearest = 0u;   // the nearest, as the device sees it: it need not look beyond
-const uint kEveryone = 1u;  // the nearest by our test, of all
+const uint kAll = 1u;       // the nearest by our test, of all
 const uint kFirstFound = 2u;
 
 bool search(uint wanted, vec3 origin, float start, vec3 direction, float end, RayFilter ignored, inout NearestHit nearest) {
@@ -37,7 +44,7 @@ bool search(uint wanted, vec3 origin, float start, vec3 direction, float end, Ra
     rayQueryEXT query;
     const float back = setBack(origin, direction);
     rayQueryInitializeEXT(query, triangleStructure, gl_RayFlagsNoneEXT, 0xff, origin - back * direction, start, direction,
-                          min(end + back, kLongestRay));
+                          min(end + 2.0 * back, kLongestRay));
     bool found = false;
     while (rayQueryProceedEXT(query)) {
         const uint record = uint(rayQueryGetIntersectionPrimitiveIndexEXT(query, false));
@@ -57,10 +64,10 @@ bool search(uint wanted, vec3 origin, float start, vec3 direction, float end, Ra
 // answer are looked at again.
 bool intersectClosest(vec3 origin, vec3 direction, float tMax, RayFilter ignored, out Hit hit) {
     NearestHit nearest = nothingBefore(tMax);
-    const bool found = isTraceable(origin, direction) &&
+    const bool found = isTraceable(origin, direction, tMax) &&
                        search(kNearest, origin, 0.0, direction, withMargin(tMax), ignored, nearest);
     if (found)
-        search(kEveryone, origin, nearest.hit.t * (1.0 - kProposalMargin), direction, withMargin(nearest.hit.t), ignored,
+        search(kAll, origin, nearest.hit.t * (1.0 - kProposalMargin), direction, withMargin(nearest.hit.t), ignored,
                nearest);
     hit = nearest.hit;
     return found;
@@ -68,7 +75,7 @@ bool intersectClosest(vec3 origin, vec3 direction, float tMax, RayFilter ignored
 
 bool intersectAny(vec3 origin, vec3 direction, float tMax, RayFilter ignored) {
     NearestHit nearest = nothingBefore(tMax);
-    return isTraceable(origin, direction) &&
+    return isTraceable(origin, direction, tMax) &&
            search(kFirstFound, origin, 0.0, direction, withMargin(tMax), ignored, nearest);
 }
 

@@ -100,7 +100,7 @@ TEST(ScheduleChoice, RefusalsSayWhyAndWhatToTry) {
 
 // The host runs what the build embedded.
 TEST(ScheduleChoice, KernelsTraceWhereAnyKernelThatTheHostReplacesIsEdited) {
-    for (const std::string_view edited : {"extend", "connect", "connect@ray_query"}) {
+    for (const std::string_view edited : {"extend", "connect", "hosted/proposed"}) {
         const KernelSource source = [&](std::string_view name) {
             gpu::KernelCode code = embeddedKernel(name);
             code.content += name == edited ? "edited" : "";

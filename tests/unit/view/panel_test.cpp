@@ -306,6 +306,16 @@ TEST_F(PanelTest, SavesWithItsButton) {
 }
 
 // Presets are single settings of the lecture, but for the seed.
+TEST_F(PanelTest, AScheduleBringsAnAcceleratorOfItsOwn) {
+    view_.canBeHosted = true;
+    view_.settings.work = {.schedule = Schedule::hosted, .accelerator = RayAccelerator::embree};
+    click("Lavalight", "View");
+    click("Lavalight", "Render");
+    choose("left/schedule", "fused");
+    EXPECT_EQ(view_.settings.work.schedule, Schedule::fused);
+    EXPECT_EQ(view_.settings.work.accelerator, RayAccelerator::automatic);
+}
+
 TEST_F(PanelTest, PresetChangesTheEstimatorAndKeepsTheSeed) {
     view_.settings.estimator.seed = 17;
     const Preset& preset = presets().front();
