@@ -123,10 +123,10 @@ GltfBuilder changingTriangle() {
 
 TEST_F(Options, OfRenderAreOnRecordUnlessTheyAreListedHereWithTheReason) {
     // Options that are on record in another way: under names of their own (scene, camera, device, png), as
-    // first-sample and spp, in the ledger (denoise), as the settings that a preset stands for, and as --at of
-    // each frame.
-    const std::set<std::string> elsewhere{"camera",  "device", "tonemap", "exposure", "samples",
-                                          "denoise", "preset", "frames",  "frame",    "fps"};
+    // first-sample and spp, in the ledger (denoise), as the settings that a preset stands for, as --at of
+    // each frame, and as content (accelerator, with what it rounds by).
+    const std::set<std::string> elsewhere{"camera", "device", "tonemap", "exposure", "samples",    "denoise",
+                                          "preset", "frames", "frame",   "fps",      "accelerator"};
     // Options that need no record: what to write and where; how the work is cut up, which no bit depends on;
     // whether to render or refuse; whether to go on or begin again.
     const std::set<std::string> noMatterOfTheImage{
