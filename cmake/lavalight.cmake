@@ -56,7 +56,7 @@ endfunction()
 
 # lavalight_embed_kernels(TARGET [EACH_ACCELERATOR] NAMESPACE ns FILES k.comp...): compiles kernels with the program's own
 # compiler, so that a shader error fails the build, inlines them, and embeds the SPIR-V as `ns::find(name)`. EACH_ACCELERATOR:
-# those whose files ask about rays are there once for each accelerator.
+# those that ask about rays are there once for each accelerator.
 function(lavalight_embed_kernels target)
     cmake_parse_arguments(ARG "EACH_ACCELERATOR" "NAMESPACE" "FILES" ${ARGN})
     set(dir ${CMAKE_BINARY_DIR}/generated/${target})

@@ -106,7 +106,8 @@ void writeHeader(const Arguments& arguments) {
                     arguments.nameSpace));
 }
 
-// The kernel with each accelerator, if that is wanted and its files trace rays; else with the first.
+// The kernel with each accelerator, if that is wanted and it traces rays; else with the first. One that binds
+// the same with another accelerator only includes the questions, and asks none.
 std::vector<Embedded> compiled(const std::filesystem::path& file, const Arguments& arguments) {
     std::vector<Embedded> kernels;
     bool isWanted = true;
@@ -118,6 +119,8 @@ std::vector<Embedded> compiled(const std::filesystem::path& file, const Argument
             isWanted = isWanted || (arguments.eachAccelerator && path == kIncludedAccelerator);
             return includedFile(path, accelerator);
         });
+        if (!kernels.empty() && code.bindings == kernels.front().code.bindings)
+            break;
         code.spirv = gpu::inlined(code.spirv);
         const std::string name = textOf({code.name, accelerator});
         kernels.push_back({name, std::move(code)});

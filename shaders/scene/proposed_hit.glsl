@@ -9,8 +9,16 @@
 // come before it.
 const float kProposalMargin = 2e-4;
 
+const float kFarthest = 1e18; // largest component of an origin or a direction
+
 float withMargin(float t) {
     return t * (1.0 + kProposalMargin);
+}
+
+// Whether a ray is one that other programs may be asked about: Embree ends the program for a ray that is not finite or
+// starts beyond 1.8e18, which a camera at the end of the world may ask for. Such a ray meets nothing.
+bool isTraceable(vec3 origin, vec3 direction) {
+    return all(lessThanEqual(abs(origin), vec3(kFarthest))) && all(lessThanEqual(abs(direction), vec3(kFarthest)));
 }
 
 // Where the ray meets a triangle that is proposed at these barycentrics.

@@ -19,6 +19,7 @@ struct KernelBinding {
     std::string name;
     uint32_t binding = 0;
     BindingKind kind = BindingKind::storageBuffer;
+    bool operator==(const KernelBinding&) const = default;
 };
 
 // A compiled kernel with what is needed to build its pipeline layout.

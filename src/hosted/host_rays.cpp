@@ -100,16 +100,6 @@ RTCRay toEmbree(vec3 origin, vec3 direction, float end) {
     return ray;
 }
 
-// What Embree takes: it ends the program for a ray that is not finite or starts beyond 1.8e18, which a camera
-// at the end of the world may ask for. Such a ray meets nothing.
-bool isTraceable(vec3 origin, vec3 direction) {
-    constexpr float kFarthest = 1e18f;
-    const auto isWithin = [](const vec3& v) {
-        return std::abs(v.x) <= kFarthest && std::abs(v.y) <= kFarthest && std::abs(v.z) <= kFarthest;
-    };
-    return isWithin(origin) && isWithin(direction);
-}
-
 Lane makeLane(ShaderRays& shader, vec3 origin, vec3 direction, float tMax,
               const ShaderRays::RayFilter& ignored) {
     return {ignored, shader.shearRay(origin, direction), shader.nothingBefore(tMax)};

@@ -25,6 +25,10 @@ constexpr uint32_t kMostRecords = (1u << 27) / (kPlanesOut * sizeof(glm::uvec4))
 // The schedule that takes over where kernels must trace on a CPU.
 constexpr Schedule kInsteadOfHosted = Schedule::fused;
 
+bool letsHostTrace(RayAccelerator accelerator) {
+    return accelerator == RayAccelerator::automatic || accelerator == RayAccelerator::embree;
+}
+
 void requireRayQueries(RayAccelerator accelerator, const gpu::DeviceDescription& device) {
     if (accelerator == RayAccelerator::rayQuery && !device.tracesRays)
         throw Error(fmt::format("cannot use the accelerator ray-query: {} has no VK_KHR_ray_query; try "
@@ -56,16 +60,14 @@ RenderSettings resolveSchedule(RenderSettings settings, const gpu::DeviceDescrip
     Schedule& schedule = settings.work.schedule;
     RayAccelerator& accelerator = settings.work.accelerator;
     requireRayQueries(accelerator, device);
-    const bool mayBeHosted =
-        accelerator == RayAccelerator::automatic || accelerator == RayAccelerator::embree;
     if (schedule == Schedule::hosted)
         requireHostedMemory("schedule", nameOf(schedule), "--schedule auto", device);
     if (accelerator == RayAccelerator::embree)
         requireHostedMemory("accelerator", nameOf(accelerator), "--accelerator auto", device);
     if (schedule == Schedule::automatic)
-        schedule = device.sharesMemory && mayBeHosted ? Schedule::hosted
-                   : device.isCpu                     ? Schedule::fused
-                                                      : Schedule::wavefront;
+        schedule = device.sharesMemory && letsHostTrace(accelerator) ? Schedule::hosted
+                   : device.isCpu                                    ? Schedule::fused
+                                                                     : Schedule::wavefront;
     requireFits(accelerator, schedule);
     if (schedule == Schedule::hosted && !tracesAsHost(source)) {
         schedule = kInsteadOfHosted;
@@ -84,10 +86,9 @@ RenderSettings resolveSchedule(RenderSettings settings, const gpu::DeviceDescrip
 
 std::string whyNotHosted(const RenderSettings& asked, const gpu::DeviceDescription& device,
                          const KernelSource& source) {
-    const bool mayBeHosted =
-        (asked.work.schedule == Schedule::hosted || asked.work.schedule == Schedule::automatic) &&
-        (asked.work.accelerator == RayAccelerator::automatic ||
-         asked.work.accelerator == RayAccelerator::embree);
+    const Schedule schedule = asked.work.schedule;
+    const bool mayBeHosted = (schedule == Schedule::hosted || schedule == Schedule::automatic) &&
+                             letsHostTrace(asked.work.accelerator);
     if (!mayBeHosted || !device.sharesMemory || tracesAsHost(source))
         return {};
     return fmt::format("edited shaders take part in tracing rays, and the host does not know of them: the "

@@ -15,14 +15,12 @@ layout(set = 0, binding = BINDING_TRIANGLE_STRUCTURE) uniform accelerationStruct
 // One texel: a length in x, in units of the world, that no coordinate of the scene exceeds.
 layout(set = 0, binding = BINDING_STRUCTURE_EXTENT) uniform utextureBuffer structureExtent;
 
-const float kFarthestOrigin = 1e18; // a ray that starts beyond meets nothing
 const float kLongestRay = 3e38;
 const float kSetBack = 1e-5; // of the largest coordinate
 
-bool isTraceable(vec3 origin, vec3 direction, float tMax) {
-    const bool isNear = all(lessThanEqual(abs(origin), vec3(kFarthestOrigin))) &&
-                        all(lessThanEqual(abs(direction), vec3(kFarthestOrigin)));
-    return isNear && tMax > 0.0 && dot(direction, direction) > 0.0;
+// Vulkan leaves open what a ray does that has no direction, or ends before it starts.
+bool mayBeAsked(vec3 origin, vec3 direction, float tMax) {
+    return isTraceable(origin, direction) && tMax > 0.0 && dot(direction, direction) > 0.0;
 }
 
 // How far before its start a ray sets out on the device, and how far behind its end it goes, in units of t: what lies at the
@@ -64,7 +62,7 @@ bool search(uint wanted, vec3 origin, float start, vec3 direction, float end, Ra
 // answer are looked at again.
 bool intersectClosest(vec3 origin, vec3 direction, float tMax, RayFilter ignored, out Hit hit) {
     NearestHit nearest = nothingBefore(tMax);
-    const bool found = isTraceable(origin, direction, tMax) &&
+    const bool found = mayBeAsked(origin, direction, tMax) &&
                        search(kNearest, origin, 0.0, direction, withMargin(tMax), ignored, nearest);
     if (found)
         search(kAll, origin, nearest.hit.t * (1.0 - kProposalMargin), direction, withMargin(nearest.hit.t), ignored,
@@ -75,7 +73,7 @@ bool intersectClosest(vec3 origin, vec3 direction, float tMax, RayFilter ignored
 
 bool intersectAny(vec3 origin, vec3 direction, float tMax, RayFilter ignored) {
     NearestHit nearest = nothingBefore(tMax);
-    return isTraceable(origin, direction, tMax) &&
+    return mayBeAsked(origin, direction, tMax) &&
            search(kFirstFound, origin, 0.0, direction, withMargin(tMax), ignored, nearest);
 }
 
