@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <optional>
-#include <utility>
 #include <vector>
 
-#include "accel/embree_triangles.h"
+#include "accel/z_curve_tree.h"
 #include "base/parallel.h"
 #include "shared/scene.h"
 
@@ -63,7 +61,7 @@ struct LiftPrism {
     glm::vec3 origin;
     std::array<glm::vec3, 5> normals;
     std::array<float, 5> ends;
-    float radius = 0.0f; // around the middle of the triangle
+    float reach = 0.0f; // beyond the triangle, in any direction
 };
 
 // rises[k][j]: how far above corner j the plane through corner k lies, along the normal there.
@@ -122,22 +120,36 @@ std::optional<LiftPrism> liftPrism(const SmoothTriangle& t, float side) {
         prism.normals[2 + e] = outwards;
         prism.ends[2 + e] = glm::dot(outwards, c[e] - c[0]) + liftAlong(outwards) - least;
     }
-    const glm::vec3 center = (c[0] + c[1] + c[2]) / 3.0f;
-    const float reach =
-        std::max({glm::distance(center, c[0]), glm::distance(center, c[1]), glm::distance(center, c[2])});
-    prism.radius = 1.0001f * (reach + largestLift(rises, glm::vec3(1.0f)));
+    prism.reach = 1.0001f * largestLift(rises, glm::vec3(1.0f));
     return prism;
+}
+
+// Corners about the origin of a prism, by component. The fourth is the third again: compilers then take all
+// at once.
+struct CornerLanes {
+    std::array<float, 4> x, y, z;
+};
+
+CornerLanes lanesOf(const Corners& corners, const glm::vec3& origin) {
+    CornerLanes lanes{};
+    for (size_t i = 0; i < 4; ++i) {
+        const glm::vec3 corner = corners[std::min<size_t>(i, 2)] - origin;
+        lanes.x[i] = corner.x;
+        lanes.y[i] = corner.y;
+        lanes.z[i] = corner.z;
+    }
+    return lanes;
 }
 
 // Whether all of a triangle lies beyond one of the planes: true of most, for the neighbours lie below the
 // prism.
-bool isBeyondAPlane(const LiftPrism& prism, const Corners& corners) {
-    const glm::vec3 a = corners[0] - prism.origin;
-    const glm::vec3 b = corners[1] - prism.origin;
-    const glm::vec3 c = corners[2] - prism.origin;
+bool isBeyondAPlane(const LiftPrism& prism, const CornerLanes& corners) {
     for (size_t i = 0; i < prism.normals.size(); ++i) {
         const glm::vec3& n = prism.normals[i];
-        if (std::min({glm::dot(n, a), glm::dot(n, b), glm::dot(n, c)}) > prism.ends[i])
+        std::array<float, 4> along;
+        for (size_t j = 0; j < 4; ++j)
+            along[j] = n.x * corners.x[j] + n.y * corners.y[j] + n.z * corners.z[j];
+        if (std::min(std::min(along[0], along[1]), std::min(along[2], along[3])) > prism.ends[i])
             return true;
     }
     return false;
@@ -145,8 +157,6 @@ bool isBeyondAPlane(const LiftPrism& prism, const Corners& corners) {
 
 // Whether a part of a triangle lies inside: what the prism's planes leave of it, one after the other.
 bool overlaps(const LiftPrism& prism, const Corners& corners) {
-    if (isBeyondAPlane(prism, corners))
-        return false;
     std::array<glm::vec3, 8> polygon; // a plane adds one corner at most
     size_t count = 3;
     for (size_t i = 0; i < 3; ++i)
@@ -170,6 +180,10 @@ bool overlaps(const LiftPrism& prism, const Corners& corners) {
     return count > 0;
 }
 
+bool shareACorner(const Corners& a, const Corners& b) {
+    return std::ranges::any_of(a, [&](const glm::vec3& corner) { return std::ranges::count(b, corner) > 0; });
+}
+
 // Whether both belong to one smooth surface: they share a corner and the normal there.
 bool isContinued(const SmoothTriangle& a, const SmoothTriangle& b) {
     for (int i = 0; i < 3; ++i)
@@ -179,91 +193,44 @@ bool isContinued(const SmoothTriangle& a, const SmoothTriangle& b) {
     return false;
 }
 
-// Every third bit of the result is one of the ten of x.
-uint32_t spread(uint32_t x) {
-    x = (x | x << 16) & 0x030000ffu;
-    x = (x | x << 8) & 0x0300f00fu;
-    x = (x | x << 4) & 0x030c30c3u;
-    return (x | x << 2) & 0x09249249u;
-}
-
-// Ids of the triangles along a Z curve through their middles: what lies together in space then lies together
-// in memory, for which a search would wait most of its time.
-std::vector<uint32_t> alongZCurve(std::span<const Triangle> triangles) {
-    const auto middle = [](const Triangle& t) { return (t.v0 + t.v1 + t.v2) / 3.0f; };
-    glm::vec3 lower(std::numeric_limits<float>::infinity());
-    glm::vec3 upper = -lower;
-    for (const Triangle& t : triangles) {
-        lower = glm::min(lower, middle(t));
-        upper = glm::max(upper, middle(t));
-    }
-    const glm::vec3 scale = 1023.0f / glm::max(upper - lower, glm::vec3(1e-30f));
-    std::vector<std::pair<uint32_t, uint32_t>> keys;
-    keys.reserve(triangles.size());
-    for (uint32_t id = 0; id < triangles.size(); ++id) {
-        const glm::uvec3 cell((middle(triangles[id]) - lower) * scale);
-        keys.emplace_back(spread(cell.x) | spread(cell.y) << 1 | spread(cell.z) << 2, id);
-    }
-    std::ranges::sort(keys);
-    std::vector<uint32_t> ids;
-    ids.reserve(keys.size());
-    for (const auto& [key, id] : keys)
-        ids.push_back(id);
-    return ids;
-}
-
-// The triangles in the order in which they are searched, and their ids.
-struct Neighbourhood {
-    std::vector<uint32_t> ids;
-    std::vector<Triangle> triangles;
-
-    explicit Neighbourhood(std::span<const Triangle> byId) : ids(alongZCurve(byId)) {
-        triangles.reserve(ids.size());
-        for (const uint32_t id : ids)
-            triangles.push_back(byId[id]);
-    }
-};
-
 // A look around one triangle for what overlaps the prism on either of its sides.
 struct Search {
-    const SmoothTriangles& smooth;
-    const Neighbourhood& around;
-    uint32_t place; // of the triangle, in `around`
-    SmoothTriangle corners;
+    size_t place; // of the triangle, in the tree
+    SmoothTriangle triangle;
     std::array<std::optional<LiftPrism>, 2> prisms;
-    bool isCrowded = false;
 
     [[nodiscard]] bool isFree() const { return !prisms[0] && !prisms[1]; }
-    [[nodiscard]] float radius() const {
-        return std::max(prisms[0] ? prisms[0]->radius : 0.0f, prisms[1] ? prisms[1]->radius : 0.0f);
+    [[nodiscard]] Box box() const {
+        const Corners& c = triangle.corners;
+        const float reach =
+            std::max(prisms[0] ? prisms[0]->reach : 0.0f, prisms[1] ? prisms[1]->reach : 0.0f);
+        return {glm::min(glm::min(c[0], c[1]), c[2]) - reach, glm::max(glm::max(c[0], c[1]), c[2]) + reach};
+    }
+    [[nodiscard]] bool isClear(const Corners& other) const {
+        const CornerLanes lanes = lanesOf(other, triangle.corners[0]); // the origin of both prisms
+        return (!prisms[0] || isBeyondAPlane(*prisms[0], lanes)) &&
+               (!prisms[1] || isBeyondAPlane(*prisms[1], lanes));
     }
     [[nodiscard]] bool isOverlapped(const Corners& other) const {
         return (prisms[0] && overlaps(*prisms[0], other)) || (prisms[1] && overlaps(*prisms[1], other));
     }
 };
 
-bool meet(RTCPointQueryFunctionArguments* found) {
-    auto& search = *static_cast<Search*>(found->userPtr);
-    const uint32_t other = found->primID;
-    if (search.isCrowded || other == search.place ||
-        !search.isOverlapped(cornersOf(search.around.triangles[other])))
-        return false;
-    const uint32_t id = search.around.ids[other];
-    if (search.smooth.isSmooth(id) && isContinued(search.corners, search.smooth.at(id)))
-        return false;
-    search.isCrowded = true;
-    found->query->radius = 0.0f; // ends the search
-    return true;
-}
-
-bool isCrowded(RTCScene scene, Search search) {
-    const Corners& c = search.corners.corners;
-    const glm::vec3 center = (c[0] + c[1] + c[2]) / 3.0f;
-    RTCPointQuery query{center.x, center.y, center.z, 0.0f, search.radius()};
-    RTCPointQueryContext context;
-    rtcInitPointQueryContext(&context);
-    rtcPointQuery(scene, &query, &context, meet, &search);
-    return search.isCrowded;
+bool isCrowded(const SmoothTriangles& smooth, const ZCurveTree& tree, const Search& search) {
+    bool isCrowded = false;
+    tree.visitIn(search.box(), [&](size_t place) {
+        if (place == search.place)
+            return true;
+        const Corners corners = cornersOf(tree.triangles()[place]);
+        if (search.isClear(corners))
+            return true;
+        const uint32_t id = tree.id(place);
+        const bool isOneSurface = shareACorner(search.triangle.corners, corners) && smooth.isSmooth(id) &&
+                                  isContinued(search.triangle, smooth.at(id));
+        isCrowded = !isOneSurface && search.isOverlapped(corners);
+        return !isCrowded;
+    });
+    return isCrowded;
 }
 
 } // namespace
@@ -284,19 +251,18 @@ std::vector<bool> crowdedLifts(const Scene& scene, std::span<const Triangle> tri
         isAnyLifted = isLifted(id);
     if (!isAnyLifted)
         return {};
-    const Neighbourhood around(triangles);
-    const EmbreeTriangles tree(around.triangles, RTC_BUILD_QUALITY_LOW);
+    const ZCurveTree tree(triangles);
     std::vector<uint8_t> crowded(triangles.size()); // bytes, which threads may write side by side
     constexpr size_t kAtATime = 1024;
     forEachInParallel((triangles.size() + kAtATime - 1) / kAtATime, [&](size_t part) {
         const size_t end = std::min(triangles.size(), (part + 1) * kAtATime);
         for (size_t place = part * kAtATime; place < end; ++place) {
-            const uint32_t id = around.ids[place];
+            const uint32_t id = tree.id(place);
             if (!smooth.isSmooth(id))
                 continue;
-            const SmoothTriangle corners = smooth.at(id);
-            const Search search{smooth, around, static_cast<uint32_t>(place), corners, prismsOf(corners)};
-            crowded[id] = !search.isFree() && isCrowded(tree.scene(), search);
+            const SmoothTriangle triangle = smooth.at(id);
+            const Search search{place, triangle, prismsOf(triangle)};
+            crowded[id] = !search.isFree() && isCrowded(smooth, tree, search);
         }
     });
     return {crowded.begin(), crowded.end()};

@@ -13,7 +13,7 @@ namespace lavalight {
 // Marks each triangle of `triangles` (sceneTriangles() of the scene) whose smooth surface another surface may
 // pierce or cover. A ray that started on that smooth surface could start behind the other one, so rays start
 // on the triangle itself. Neighbours that share a vertex and its normal belong to the same smooth surface.
-// Empty: no triangle is marked. Throws Error where Embree fails.
+// Empty: no triangle is marked.
 [[nodiscard]] std::vector<bool> crowdedLifts(const Scene& scene, std::span<const Triangle> triangles);
 
 } // namespace lavalight

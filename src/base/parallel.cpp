@@ -15,8 +15,18 @@ namespace {
 
 std::atomic<unsigned> limit = 0; // limitThreads()
 
-// Threads that wait for loops. To start a thread for each loop instead takes some 50 us, as long as a loop of
-// a few hundred rays.
+// One loop: what is to be done, and how far it is.
+struct Loop {
+    const std::function<void(std::size_t)>& work;
+    const std::size_t count;
+    std::atomic<std::size_t> next = 0;
+    // Guarded by the mutex of the threads.
+    std::size_t helpers = 0; // threads that take part beside the caller
+    std::exception_ptr failure = nullptr;
+};
+
+// Threads that help loops. To start a thread for each loop instead takes some 50 us, as long as a loop of a
+// few hundred rays.
 class LoopThreads {
   public:
     LoopThreads() {
@@ -33,78 +43,69 @@ class LoopThreads {
             const std::lock_guard lock(mutex_);
             isEnding_ = true;
         }
-        started_.notify_all();
+        begun_.notify_all();
         for (std::thread& thread : threads_)
             thread.join();
     }
     LoopThreads(const LoopThreads&) = delete;
     LoopThreads& operator=(const LoopThreads&) = delete;
 
-    // Takes the threads for a loop; false: another one has them.
-    [[nodiscard]] bool run(std::size_t count, const std::function<void(std::size_t)>& work) {
-        if (isTaken_.exchange(true))
-            return false;
+    void run(std::size_t count, const std::function<void(std::size_t)>& work) {
+        Loop loop{work, count};
         {
             const std::lock_guard lock(mutex_);
-            work_ = &work;
-            count_ = count;
-            next_ = 0;
-            busy_ = threads_.size();
-            ++loop_;
+            loops_.push_back(&loop);
         }
-        started_.notify_all();
-        takePart(work, count);
+        begun_.notify_all();
+        takePart(loop);
         std::unique_lock lock(mutex_);
-        done_.wait(lock, [&] { return busy_ == 0; });
-        const std::exception_ptr failure = std::exchange(failure_, nullptr);
-        isTaken_ = false;
-        if (failure)
-            std::rethrow_exception(failure);
-        return true;
+        std::erase(loops_, &loop);
+        left_.wait(lock, [&] { return loop.helpers == 0; });
+        if (loop.failure)
+            std::rethrow_exception(loop.failure);
     }
 
   private:
-    void takePart(const std::function<void(std::size_t)>& work, std::size_t count) {
+    void takePart(Loop& loop) {
         try {
-            for (std::size_t i = next_++; i < count; i = next_++)
-                work(i);
+            for (std::size_t i = loop.next++; i < loop.count; i = loop.next++)
+                loop.work(i);
         } catch (...) {
-            next_ = count; // no more for anyone
+            loop.next = loop.count; // no more for anyone
             const std::lock_guard lock(mutex_);
-            failure_ = std::current_exception();
+            loop.failure = std::current_exception();
         }
+    }
+
+    // The oldest loop with work that nobody has taken; null: none.
+    [[nodiscard]] Loop* openLoop() const {
+        const auto found =
+            std::ranges::find_if(loops_, [](const Loop* loop) { return loop->next < loop->count; });
+        return found == loops_.end() ? nullptr : *found;
     }
 
     void serve() {
-        std::size_t seen = 0;
+        std::unique_lock lock(mutex_);
         for (;;) {
-            std::unique_lock lock(mutex_);
-            started_.wait(lock, [&] { return isEnding_ || loop_ != seen; });
+            Loop* loop = nullptr;
+            begun_.wait(lock, [&] { return isEnding_ || (loop = openLoop()) != nullptr; });
             if (isEnding_)
                 return;
-            seen = loop_;
-            const std::function<void(std::size_t)>& work = *work_;
-            const std::size_t count = count_;
+            ++loop->helpers;
             lock.unlock();
-            takePart(work, count);
+            takePart(*loop);
             lock.lock();
-            if (--busy_ == 0)
-                done_.notify_one();
+            if (--loop->helpers == 0)
+                left_.notify_all(); // several callers may wait, each for its own loop
         }
     }
 
-    std::atomic<bool> isTaken_ = false; // a loop has the threads
-    std::mutex mutex_;                  // guards what follows
-    std::condition_variable started_;
-    std::condition_variable done_;
-    const std::function<void(std::size_t)>* work_ = nullptr;
-    std::size_t count_ = 0;
-    std::size_t loop_ = 0; // number of loops so far
-    std::size_t busy_ = 0; // threads that are not done with this one
-    std::exception_ptr failure_;
+    std::mutex mutex_; // guards what follows
+    std::condition_variable begun_;
+    std::condition_variable left_;
+    std::vector<Loop*> loops_; // of callers that are at work, the oldest first
     bool isEnding_ = false;
-    std::atomic<std::size_t> next_ = 0; // not guarded, like the threads
-    std::vector<std::thread> threads_;
+    std::vector<std::thread> threads_; // not guarded
 };
 
 } // namespace
@@ -121,8 +122,8 @@ void forEachInParallel(std::size_t count, const std::function<void(std::size_t)>
     if (count > 1 && limit != 1) {
         // Never destroyed: at the end of a process that embeds this, other threads may still be in a loop.
         static auto* threads = new LoopThreads;
-        if (threads->run(count, work))
-            return;
+        threads->run(count, work);
+        return;
     }
     for (std::size_t i = 0; i < count; ++i)
         work(i);

@@ -13,8 +13,9 @@ void limitThreads(unsigned threads);
 [[nodiscard]] unsigned threadLimit();
 
 // Calls work(i) once for each i below `count`, on all processors, and returns when all is done. An exception
-// of the work ends the loop early and is thrown here. The threads stay for the next loop; a loop that starts
-// while another one has them, within its work or on another thread, runs on the calling thread alone.
+// of the work ends the loop early and is thrown here. The threads stay for the next loop. Loops may run at
+// the same time, on several threads or one within the other: threads without work help the oldest that has
+// some.
 void forEachInParallel(std::size_t count, const std::function<void(std::size_t)>& work);
 
 } // namespace lavalight

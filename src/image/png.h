@@ -13,9 +13,6 @@ namespace lavalight {
 // Keywords (1 to 79 printable Latin-1 characters) and texts.
 using PngTexts = std::vector<std::pair<std::string, std::string>>;
 
-// Throws Error for a size of which no file is written: with alpha, the largest are too large.
-void requirePngFits(uint32_t width, uint32_t height, bool hasAlpha);
-
 // The bytes of a file of sRGB pixels, rows from the top, each R, G, B and straight alpha from its lowest byte
 // up. The file has alpha where a pixel's is below 255. `texts`: keywords and values of text chunks. Sides of
 // 1 to kMaxImageSide pixels. Equal input gives equal bytes. Throws Error if memory does not suffice.

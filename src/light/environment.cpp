@@ -93,12 +93,14 @@ EnvironmentDistribution makeEnvironmentDistribution(const Image& map) {
     distribution.height = map.height;
     std::vector<Level> levels{{map.width, map.height + 1, {}}};
     levels[0].masses.reserve(size_t{map.width} * (map.height + 1));
-    for (uint32_t y = 0; y <= map.height; ++y)
+    for (uint32_t y = 0; y <= map.height; ++y) {
+        const double angle = solidAngle(map, y);
         for (uint32_t x = 0; x < map.width; ++x) {
-            const glm::dvec3 power = solidAngle(map, y) * meanOfCell(map, x, y);
+            const glm::dvec3 power = angle * meanOfCell(map, x, y);
             distribution.meanRadiance += power / (4.0 * pi);
             levels[0].masses.push_back(power.x + power.y + power.z);
         }
+    }
     while (levels.back().masses.size() > 1)
         levels.push_back(halved(levels.back()));
 

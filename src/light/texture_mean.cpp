@@ -69,6 +69,25 @@ Range cellsOf(const Polygon& polygon, glm::length_t axis) {
             std::max(static_cast<int64_t>(std::floor(low)), static_cast<int64_t>(std::ceil(high)) - 1)};
 }
 
+// Texels that these cells are made of.
+Range texelsOf(const Polygon& polygon, glm::length_t axis, bool isNearest) {
+    const Range cells = cellsOf(polygon, axis);
+    return {cells.first, cells.last + (isNearest ? 0 : 1)};
+}
+
+// Columns or rows of a picture that contain what texels beyond its borders show: all of them where several
+// copies of the picture meet.
+Range inPicture(const Range& texels, uint32_t size, Wrap wrap) {
+    const auto copyOf = [&](int64_t texel) {
+        return static_cast<int64_t>(std::floor(static_cast<double>(texel) / size));
+    };
+    if (wrap != Wrap::clamp && copyOf(texels.first) != copyOf(texels.last))
+        return {0, int64_t{size} - 1};
+    const auto [first, last] =
+        std::minmax({wrapTexel(texels.first, size, wrap), wrapTexel(texels.last, size, wrap)});
+    return {first, last};
+}
+
 double cellCount(const std::array<glm::dvec2, 3>& corners) {
     const glm::dvec2 size = glm::max(glm::max(corners[0], corners[1]), corners[2]) -
                             glm::min(glm::min(corners[0], corners[1]), corners[2]);
@@ -78,18 +97,31 @@ double cellCount(const std::array<glm::dvec2, 3>& corners) {
 } // namespace
 
 TextureMean::TextureMean(const Picture& picture, const Texture& texture) : texture_(texture) {
-    Level level{picture.width, picture.height, {}};
+    Level level{picture.width, picture.height, {}, {}};
     level.texels.reserve(size_t{picture.width} * picture.height);
     for (uint32_t y = 0; y < picture.height; ++y)
         for (uint32_t x = 0; x < picture.width; ++x)
             level.texels.emplace_back(texelOf(picture, x, y, texture.isSrgb));
+    countLit(level);
     levels_.push_back(std::move(level));
     while (levels_.back().width > 1 || levels_.back().height > 1)
         levels_.push_back(halved(levels_.back()));
 }
 
+void TextureMean::countLit(Level& level) {
+    const size_t stride = size_t{level.width} + 1;
+    level.lit.assign(stride * (size_t{level.height} + 1), 0);
+    for (uint32_t y = 0; y < level.height; ++y) {
+        uint32_t inRow = 0;
+        for (uint32_t x = 0; x < level.width; ++x) {
+            inRow += level.texels[size_t{y} * level.width + x] != glm::vec3(0.0f) ? 1 : 0;
+            level.lit[(y + 1) * stride + x + 1] = level.lit[y * stride + x + 1] + inRow;
+        }
+    }
+}
+
 TextureMean::Level TextureMean::halved(const Level& level) {
-    Level half{(level.width + 1) / 2, (level.height + 1) / 2, {}};
+    Level half{(level.width + 1) / 2, (level.height + 1) / 2, {}, {}};
     half.texels.reserve(size_t{half.width} * half.height);
     for (uint32_t y = 0; y < half.height; ++y)
         for (uint32_t x = 0; x < half.width; ++x) {
@@ -99,6 +131,7 @@ TextureMean::Level TextureMean::halved(const Level& level) {
                                     std::min(2 * x + i % 2, level.width - 1)];
             half.texels.push_back(0.25f * sum);
         }
+    countLit(half);
     return half;
 }
 
@@ -126,6 +159,20 @@ TextureMean::Cell TextureMean::cellAt(const Level& level, int64_t x, int64_t y) 
         return {low, {texel(level, x, y)}};
     return {low,
             {texel(level, x, y), texel(level, x + 1, y), texel(level, x, y + 1), texel(level, x + 1, y + 1)}};
+}
+
+// Whether all texels that a triangle's cells are made of are black.
+bool TextureMean::isBlackUnder(const Triangle& triangle, const Level& level) const {
+    const Polygon polygon(triangle.corners);
+    const Range columns = inPicture(texelsOf(polygon, 0, texture_.isNearest), level.width, texture_.wrapU);
+    const Range rows = inPicture(texelsOf(polygon, 1, texture_.isNearest), level.height, texture_.wrapV);
+    const auto litBefore = [&](int64_t x, int64_t y) {
+        return level.lit[static_cast<size_t>(y) * (size_t{level.width} + 1) + static_cast<size_t>(x)];
+    };
+    const int64_t right = columns.last + 1;
+    const int64_t bottom = rows.last + 1;
+    return litBefore(right, bottom) - litBefore(columns.first, bottom) ==
+           litBefore(right, rows.first) - litBefore(columns.first, rows.first);
 }
 
 // The texture at p, as the cell continues it.
@@ -188,6 +235,8 @@ glm::dvec3 TextureMean::over(const std::array<glm::vec2, 3>& uvs) const {
         const glm::dvec2 a = triangle.corners[0];
         if (!(cellCount(triangle.corners) <= kMostCells))
             continue;
+        if (isBlackUnder(triangle, level))
+            return glm::dvec3(0.0);
         // Corners so close together, in texels, that cells of unit length would round away: a point.
         constexpr double kLeastTwiceArea = 1e-9;
         return twiceArea(a, triangle.corners[1], triangle.corners[2]) > kLeastTwiceArea

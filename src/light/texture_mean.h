@@ -28,6 +28,9 @@ class TextureMean {
         uint32_t width = 0;
         uint32_t height = 0;
         std::vector<glm::vec3> texels;
+        // How many texels are not black above and to the left of each corner of the texels, in rows of
+        // width + 1: most of most emission textures is black.
+        std::vector<uint32_t> lit;
     };
     struct Triangle { // in texels of a level
         std::array<glm::dvec2, 3> corners;
@@ -40,6 +43,8 @@ class TextureMean {
     };
 
     [[nodiscard]] static Level halved(const Level& level);
+    static void countLit(Level& level);
+    [[nodiscard]] bool isBlackUnder(const Triangle& triangle, const Level& level) const;
     [[nodiscard]] Triangle onLevel(const std::array<glm::vec2, 3>& uvs, const Level& level) const;
     [[nodiscard]] glm::dvec3 texel(const Level& level, int64_t x, int64_t y) const;
     [[nodiscard]] Cell cellAt(const Level& level, int64_t x, int64_t y) const;

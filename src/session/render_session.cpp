@@ -166,12 +166,6 @@ RenderJob RenderSession::prepare(const ImportOptions& moment, const Outputs& out
     PreparedScene prepared = load(moment);
     if (next && (plan_.settings.layers >> kMotionPlane & 1u) != 0)
         loadNext(prepared.scene, *next);
-    if (!outputs.png.empty()) { // said before hours of rendering
-        const PixelWindow window = windowOf(prepared.settings.image);
-        requirePngFits(window.width, window.height,
-                       prepared.settings.background.kind == Background::transparent &&
-                           !plan_.style.tone.backdrop);
-    }
     job.writesExr = !outputs.exr.empty();
     job.report.import = moment;
     job.report.camera = prepared.camera.name;

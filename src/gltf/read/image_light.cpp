@@ -69,12 +69,26 @@ CubeMap readFaces(const GltfDocument& document, JsonView faces, uint64_t& badTex
     return cube;
 }
 
-// Radiance of spherical harmonics up to l = 2 with these coefficients of irradiance, at least 0
-// (Ramamoorthi and Hanrahan 2001, "An Efficient Representation for Irradiance Environment Maps").
-glm::vec3 radianceOfHarmonics(JsonView coefficients, const glm::dvec3& d) {
+// Spherical harmonics up to l = 2, of red, green and blue.
+using Harmonics = std::array<glm::dvec3, 9>;
+
+// The radiance whose irradiance has these coefficients (Ramamoorthi and Hanrahan 2001, "An Efficient
+// Representation for Irradiance Environment Maps").
+Harmonics toRadiance(JsonView irradiance) {
     constexpr double kPi = glm::pi<double>();
     constexpr std::array<double, 9> kConvolution = {kPi,     2 * kPi / 3, 2 * kPi / 3, 2 * kPi / 3, kPi / 4,
                                                     kPi / 4, kPi / 4,     kPi / 4,     kPi / 4};
+    Harmonics radiance;
+    for (size_t i = 0; i < radiance.size(); ++i) {
+        const JsonView color = irradiance[i];
+        radiance[i] = glm::dvec3(color[0].asNumber(0.0), color[1].asNumber(0.0), color[2].asNumber(0.0)) /
+                      kConvolution[i];
+    }
+    return radiance;
+}
+
+// At least 0.
+glm::vec3 evaluate(const Harmonics& coefficients, const glm::dvec3& d) {
     const std::array<double, 9> basis = {0.282095,
                                          0.488603 * d.y,
                                          0.488603 * d.z,
@@ -85,17 +99,13 @@ glm::vec3 radianceOfHarmonics(JsonView coefficients, const glm::dvec3& d) {
                                          1.092548 * d.x * d.z,
                                          0.546274 * (d.x * d.x - d.y * d.y)};
     glm::dvec3 sum(0.0);
-    for (size_t i = 0; i < basis.size(); ++i) {
-        const JsonView coefficient = coefficients[i];
-        const glm::dvec3 color(coefficient[0].asNumber(0.0), coefficient[1].asNumber(0.0),
-                               coefficient[2].asNumber(0.0));
-        sum += color * basis[i] / kConvolution[i];
-    }
+    for (size_t i = 0; i < basis.size(); ++i)
+        sum += coefficients[i] * basis[i];
     return glm::vec3(glm::clamp(sum, glm::dvec3(0.0), glm::dvec3(kBrightest)));
 }
 
 // A cube map of the harmonics, small since they are smooth.
-CubeMap facesOfHarmonics(JsonView coefficients) {
+CubeMap facesOfHarmonics(const Harmonics& coefficients) {
     constexpr uint32_t kSize = 32;
     const std::array<glm::dmat3, kFaces> axes = {{{{0, 0, -1}, {0, -1, 0}, {1, 0, 0}},
                                                   {{0, 0, 1}, {0, -1, 0}, {-1, 0, 0}},
@@ -110,7 +120,7 @@ CubeMap facesOfHarmonics(JsonView coefficients) {
             for (uint32_t x = 0; x < kSize; ++x) {
                 const glm::dvec3 place(2.0 * (x + 0.5) / kSize - 1.0, 2.0 * (y + 0.5) / kSize - 1.0, 1.0);
                 cube[i].pixels[size_t{y} * kSize + x] =
-                    radianceOfHarmonics(coefficients, glm::normalize(axes[i] * place));
+                    evaluate(coefficients, glm::normalize(axes[i] * place));
             }
     }
     return cube;
@@ -143,7 +153,7 @@ std::optional<EnvironmentMap> readImageLight(const GltfDocument& document, GltfN
     } catch (const Error& error) {
         notes.add(
             fmt::format("{} is lit by its irradiance coefficients alone: {}", name, printable(error.what())));
-        cube = facesOfHarmonics(light["irradianceCoefficients"]);
+        cube = facesOfHarmonics(toRadiance(light["irradianceCoefficients"]));
         map.badTexels = 0;
     }
     if (map.badTexels > 0)

@@ -49,6 +49,42 @@ TEST(ForEachInParallel, RunsWithinALoopAndOnSeveralThreadsAtOnce) {
     EXPECT_EQ(visits, 4 * 50 * 10 * 10);
 }
 
+// Waits until the condition holds; false: it does not within ten seconds.
+template <class Condition>
+bool becomesTrue(const Condition& condition) {
+    using Clock = std::chrono::steady_clock;
+    for (const Clock::time_point end = Clock::now() + std::chrono::seconds(10); Clock::now() < end;) {
+        if (condition())
+            return true;
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    return false;
+}
+
+TEST(ForEachInParallel, HelpsALoopThatBeganWhileAllThreadsWereBusy) {
+    const std::size_t all = std::thread::hardware_concurrency();
+    if (all < 2)
+        GTEST_SKIP() << "there is one processor";
+    std::atomic<bool> isFirstOver = false;
+    std::atomic<std::size_t> inFirst = 0;
+    std::thread first([&] {
+        forEachInParallel(all, [&](std::size_t) {
+            ++inFirst;
+            EXPECT_TRUE(becomesTrue([&] { return isFirstOver.load(); }));
+        });
+    });
+    ASSERT_TRUE(becomesTrue([&] { return inFirst == all; }));
+    std::atomic<bool> isHelped = false;
+    const std::thread::id here = std::this_thread::get_id();
+    forEachInParallel(2, [&](std::size_t) {
+        isFirstOver = true; // its threads are free from now on
+        if (std::this_thread::get_id() != here)
+            isHelped = true;
+        EXPECT_TRUE(becomesTrue([&] { return isHelped.load(); }));
+    });
+    first.join();
+}
+
 TEST(ForEachInParallel, WithALimitOfOneRunsOnTheCallingThread) {
     limitThreads(1);
     std::atomic<int> elsewhere = 0;

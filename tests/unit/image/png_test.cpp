@@ -1,7 +1,10 @@
 // PNG files hold the pixels that they are given.
 #include "image/png.h"
 
+#include <array>
+#include <functional>
 #include <memory>
+#include <random>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -60,6 +63,49 @@ TEST(WritePng, AlphaBelow255ComesBackAndSoDoTexts) {
     ASSERT_NE(file.find(chunk), std::string::npos);
     EXPECT_EQ(file.substr(file.find(chunk) + chunk.size(), 4), std::string("\342\352\121\064", 4));
     EXPECT_NE(file.find(std::string("lavalight:exposure\0001.5", 22)), std::string::npos);
+}
+
+// What a decoder makes of the file, of 3 or 4 bytes a pixel.
+std::vector<unsigned char> decoded(const std::string& file, int channels) {
+    int width = 0;
+    int height = 0;
+    int own = 0;
+    const std::unique_ptr<unsigned char, FreeImage> pixels(
+        stbi_load_from_memory(reinterpret_cast<const stbi_uc*>(file.data()), static_cast<int>(file.size()),
+                              &width, &height, &own, 0));
+    if (!pixels || own != channels)
+        return {};
+    return {pixels.get(), pixels.get() + static_cast<ptrdiff_t>(width) * height * channels};
+}
+
+// Rows that suit each of the filters, and noise, of which there are several chunks.
+TEST(WritePng, PicturesOfAnyKindComeBackAndFlatOnesAreSmall) {
+    constexpr uint32_t kSide = 1024;
+    std::mt19937 random(1);
+    const std::array<std::function<uint32_t(uint32_t, uint32_t)>, 5> kinds = {
+        [](uint32_t, uint32_t) { return 0x336699u; },
+        [](uint32_t x, uint32_t) { return (x * 0x010203u) & 0xffffffu; },
+        [](uint32_t, uint32_t y) { return (y * 0x030201u) & 0xffffffu; },
+        [](uint32_t x, uint32_t y) { return ((x + y) / 2 * 0x010101u) & 0xffffffu; },
+        [&](uint32_t, uint32_t) { return random() & 0xffffffu; }};
+    std::vector<uint32_t> pixels(size_t{kSide} * kSide);
+    std::vector<size_t> sizes;
+    for (const int channels : {3, 4})
+        for (const auto& kind : kinds) {
+            std::vector<unsigned char> bytes;
+            for (uint32_t i = 0; i < pixels.size(); ++i) {
+                const uint32_t alpha = channels == 3 ? 0xffu : i % 255u;
+                pixels[i] = kind(i % kSide, i / kSide) | alpha << 24;
+                for (int channel = 0; channel < channels; ++channel)
+                    bytes.push_back(static_cast<unsigned char>(pixels[i] >> (8 * channel)));
+            }
+            const std::string file = encodePng(kSide, kSide, pixels);
+            EXPECT_TRUE(decoded(file, channels) == bytes) << channels << " channels";
+            sizes.push_back(file.size());
+        }
+    for (size_t i = 0; i < 4; ++i)
+        EXPECT_LT(sizes[i], 20'000u) << i;
+    EXPECT_LT(sizes[4], 3'160'000u); // noise takes the bytes that it has
 }
 
 TEST(WritePng, AnUnwritablePathIsAnErrorAndLeavesNothing) {

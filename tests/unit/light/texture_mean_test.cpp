@@ -1,8 +1,11 @@
 // The mean of a texture over a triangle is that of all its points, for every filter and wrap mode.
 #include "light/texture_mean.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include "image/texel.h"
@@ -87,6 +90,29 @@ TEST(TextureMean, OfManyTexelsIsCloseAndKeepsWhatIsNotBlack) {
     EXPECT_EQ(TextureMean(picture, textureOf(0)).over(half), glm::dvec3(0.0));
     picture.bytes[4 * (100 * 700 + 200)] = 1;
     EXPECT_GT(TextureMean(picture, textureOf(0)).over(half).r, 0.0);
+}
+
+// Of one lit texel: small triangles beside it see black, others what their points see.
+TEST(TextureMean, OfAPictureThatIsAlmostBlackIsTheMeanOfThePoints) {
+    constexpr uint32_t kSide = 4;
+    Random random(2);
+    int black = 0;
+    int lit = 0;
+    for (int i = 0; i < 150; ++i) {
+        Picture picture = pictureOf(kSide, kSide, std::vector<glm::uvec4>(kSide * kSide));
+        picture.bytes[4 * (random.bits() % (kSide * kSide))] = 255;
+        const Texture texture = anyTexture(random);
+        const glm::vec2 middle(random.between(-1.5f, 2.5f), random.between(-1.5f, 2.5f));
+        std::array<glm::vec2, 3> uvs;
+        for (glm::vec2& uv : uvs)
+            uv = middle + 0.15f * glm::vec2(random.between(-1.0f, 1.0f), random.between(-1.0f, 1.0f));
+        const double expected = meanOfPoints(picture, texture, uvs).r;
+        const double mean = TextureMean(picture, texture).over(uvs).r;
+        EXPECT_NEAR(mean, expected, 4e-3) << i;
+        EXPECT_GE(mean > 0.0, expected > 0.0) << i;
+        ++(expected > 0.0 ? lit : black);
+    }
+    EXPECT_GT(std::min(black, lit), 20);
 }
 
 TEST(TextureMean, OfATriangleThatIsAPointInThePictureIsThatTexel) {
