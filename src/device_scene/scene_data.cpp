@@ -211,8 +211,8 @@ SceneData packScene(const Scene& scene, const Lights& lights, AcceleratorKind ki
     return data;
 }
 
-SceneData packScene(const Scene& scene) {
-    return packScene(scene, collectLights(scene, scene.environment, LightSelection::power));
+SceneData packScene(const Scene& scene, AcceleratorKind kind) {
+    return packScene(scene, collectLights(scene, scene.environment, LightSelection::power), kind);
 }
 
 } // namespace lavalight

@@ -39,6 +39,6 @@ struct SceneData {
 [[nodiscard]] SceneData packScene(const Scene& scene, const Lights& lights,
                                   AcceleratorKind kind = AcceleratorKind::bvh8);
 // With its own environment, and lights picked by power.
-[[nodiscard]] SceneData packScene(const Scene& scene);
+[[nodiscard]] SceneData packScene(const Scene& scene, AcceleratorKind kind = AcceleratorKind::bvh8);
 
 } // namespace lavalight

@@ -10,6 +10,7 @@
 #include "hosted/host_rays.h"
 #include "render/phase.h"
 #include "render/setting_names.h"
+#include "render/setting_rules.h"
 #include "shared/records.h"
 
 namespace lavalight {
@@ -43,16 +44,6 @@ void requireHostedMemory(const char* what, std::string_view name, const char* in
                                 what, name, device.name, instead));
 }
 
-void requireFits(RayAccelerator accelerator, Schedule schedule) {
-    const bool isHosted = schedule == Schedule::hosted;
-    if (accelerator == RayAccelerator::automatic || (accelerator == RayAccelerator::embree) == isHosted)
-        return;
-    throw UsageError(fmt::format("cannot use the accelerator {} with the schedule {}: {}; try --schedule {}",
-                                 nameOf(accelerator), nameOf(schedule),
-                                 isHosted ? "Embree traces its rays" : "kernels trace its rays",
-                                 isHosted ? nameOf(Schedule::fused) : nameOf(Schedule::hosted)));
-}
-
 } // namespace
 
 RenderSettings resolveSchedule(RenderSettings settings, const gpu::DeviceDescription& device,
@@ -68,7 +59,7 @@ RenderSettings resolveSchedule(RenderSettings settings, const gpu::DeviceDescrip
         schedule = device.sharesMemory && letsHostTrace(accelerator) ? Schedule::hosted
                    : device.isCpu                                    ? Schedule::fused
                                                                      : Schedule::wavefront;
-    requireFits(accelerator, schedule);
+    requireAgreement(schedule, accelerator);
     if (schedule == Schedule::hosted && !tracesAsHost(source)) {
         schedule = kInsteadOfHosted;
         accelerator = RayAccelerator::automatic;

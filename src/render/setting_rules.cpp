@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "render/setting_names.h"
 #include "render/setting_text.h"
 
 namespace lavalight {
@@ -20,6 +21,18 @@ void requireAgreement(const EstimatorSettings& settings) {
             fmt::format("--mis-survival on needs a --roulette of constant, mean-albedo or max-albedo, whose "
                         "probability does not depend on the direction drawn; it is {}",
                         textOf(rowOf("roulette"), settings)));
+}
+
+void requireAgreement(Schedule schedule, RayAccelerator accelerator) {
+    if (schedule == Schedule::automatic || accelerator == RayAccelerator::automatic)
+        return;
+    const bool isHosted = schedule == Schedule::hosted;
+    if ((accelerator == RayAccelerator::embree) == isHosted)
+        return;
+    throw UsageError(fmt::format("cannot use the accelerator {} with the schedule {}: {}; try --schedule {}",
+                                 nameOf(accelerator), nameOf(schedule),
+                                 isHosted ? "Embree traces its rays" : "kernels trace its rays",
+                                 nameOf(isHosted ? Schedule::fused : Schedule::hosted)));
 }
 
 EstimatorSettings agreeing(EstimatorSettings settings) {

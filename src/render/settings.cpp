@@ -43,6 +43,7 @@ void checkSettings(const RenderSettings& settings) {
     for (const SettingRow& row : settingRows())
         requireRange(row, settings.estimator);
     requireAgreement(settings.estimator);
+    requireAgreement(settings.work.schedule, settings.work.accelerator);
 }
 
 namespace {

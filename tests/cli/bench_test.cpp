@@ -37,6 +37,7 @@ TEST_F(Bench, TellsOfEachKindOfRayWhatBothTracersDid) {
     EXPECT_EQ(report.at("scene"), "cornell-box");
     EXPECT_EQ(report.at("triangles"), 32);
     EXPECT_EQ(report.at("threads"), "1");
+    EXPECT_EQ(report.at("accelerator"), "bvh8");
     std::vector<std::string> kinds;
     for (const json& row : report.at("rays")) {
         kinds.push_back(row.at("kind"));
@@ -51,6 +52,21 @@ TEST_F(Bench, TellsOfEachKindOfRayWhatBothTracersDid) {
         EXPECT_NEAR(row.at("ratio"), ours / row.at("embreeMegaraysPerSecond").get<double>(), 1e-6) << row;
     }
     EXPECT_EQ(kinds, (std::vector<std::string>{"camera", "bounce", "shadow"}));
+}
+
+TEST_F(Bench, MeasuresTheAcceleratorThatIsNamed) {
+    const ProgramResult result = bench({"--json", "--accelerator", "embree"});
+    if (result.exitCode != 0 && result.err.find("does not reach the memory") != std::string::npos)
+        GTEST_SKIP() << result.err;
+    ASSERT_EQ(result.exitCode, 0) << result.err;
+    const json report = json::parse(result.out);
+    EXPECT_EQ(report.at("accelerator"), "embree");
+    for (const json& row : report.at("rays")) {
+        EXPECT_GE(row.at("agreement"), 0.999) << row;
+        EXPECT_FALSE(row.contains("nodesPerRay")) << "only our own tree's are counted";
+    }
+    EXPECT_NE(bench({"--accelerator", "embree"}).out.find("accelerator embree"), std::string::npos);
+    EXPECT_EQ(bench({"--accelerator", "bvh9"}).exitCode, 2);
 }
 
 TEST_F(Bench, SeveralThreadsAreNoComparisonAndItSaysSo) {

@@ -253,6 +253,8 @@ TEST_F(Split, WhatCannotBeSplitIsRefusedBeforeAnythingIsWritten) {
     expectRefusal({"cornell-box", "--parts", "2", "--fov", "500"}, kWrongUsage, "--fov");
     expectRefusal({"cornell-box", "--parts", "2", "--frame", "3"}, kWrongUsage, "--frames A:B");
     expectRefusal({"cornell-box", "--parts", "2", "--aov", "motion"}, kWrongUsage, "--frames or --turntable");
+    expectRefusal({"cornell-box", "--parts", "2", "--schedule", "fused", "--accelerator", "embree"},
+                  kWrongUsage, "try --schedule hosted");
     expectRefusal({"cornell-box", "--parts", "2", "--camera", ""}, kWrongUsage, "its value is empty");
     expectRefusal({"cornell-box", "--parts", "20000", "--spp", "20000"}, kWrongUsage, "more than 10000");
     expectRefusal({"cornell-box", "--parts", "2", "--shaders", "."}, kFailed, "the job's folder is in it");

@@ -1,14 +1,18 @@
 // Rays that the host traces together find what each finds alone, whichever others are beside them.
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdlib>
-#include <numeric>
+#include <limits>
 #include <random>
+#include <span>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "device_scene/gpu_scene.h"
+#include "hosted/host_rays.h"
 #include "inspect/ray_sets.h"
 #include "inspect/ray_tracer.h"
 #include "scene/procedural/dense_scene.h"
@@ -118,6 +122,129 @@ TEST_F(RaysTogether, AtCoincidentTrianglesFindTheSame) {
     for (int round = 0; round < rounds(); ++round) {
         const auto seed = static_cast<uint32_t>(round + 1);
         EXPECT_EQ(differing(tracer, makeCameraRays(scene.cameras.front(), 20000, seed), seed), 0u);
+    }
+}
+
+// Shells in one another, two of them in one place: one lets rays through by chance, one where the alpha of
+// its vertices is low, one both from behind alone.
+Scene makeShells() {
+    Material blended = lambert(glm::vec3(0.5f));
+    blended.alphaMode = AlphaMode::blend;
+    blended.alpha = 0.4f;
+    blended.doubleSided = true;
+    Material cut = blended;
+    cut.alphaMode = AlphaMode::mask;
+    cut.alpha = 1.0f;
+    Material culled = blended;
+    culled.doubleSided = false;
+    SceneBuilder builder;
+    builder.add(ball({0, 0, 0}, 1.0f), blended).add(ball({0, 0, 0}, 1.0f), culled);
+    builder.add(ball({0, 0, 0}, 0.8f), cut).add(ball({0, 0, 0}, 0.5f), lambert(glm::vec3(0.5f)));
+    Scene scene = builder.camera(lookAt({0, 0, 3}, {0, 0, 0}, 0.7f)).build();
+    Random random(3);
+    for (size_t i = 0; i < scene.meshes[2].positions.size(); ++i)
+        scene.meshes[2].colors.emplace_back(1.0f, 1.0f, 1.0f, random.unit());
+    return scene;
+}
+
+struct SlotAndRay {
+    uint32_t slot;
+    Ray ray;
+};
+
+// Traces rays that know their slots, which chance depends on.
+class SlotTracer {
+  public:
+    SlotTracer(const HostScene& scene, uint32_t seed, size_t slots)
+        : host_(scene, frame(seed), range(slots)) {}
+
+    std::vector<Hit> alone(uint32_t bounce, std::span<const SlotAndRay> rays) {
+        std::vector<Hit> hits;
+        for (const SlotAndRay& one : rays) {
+            Ray ray = one.ray;
+            hits.push_back(host_.trace(one.slot, bounce, ray));
+        }
+        return hits;
+    }
+    std::vector<Hit> together(uint32_t bounce, std::span<const SlotAndRay> rays) {
+        constexpr size_t kMost = HostRays::kRaysTogether;
+        std::vector<Hit> hits(rays.size());
+        for (size_t first = 0; first < rays.size(); first += kMost) {
+            const std::span<const SlotAndRay> some =
+                rays.subspan(first, std::min(kMost, rays.size() - first));
+            std::array<uint32_t, kMost> slots{};
+            std::array<Ray, kMost> copies{};
+            for (size_t i = 0; i < some.size(); ++i) {
+                slots[i] = some[i].slot;
+                copies[i] = some[i].ray;
+            }
+            host_.trace(bounce, std::span(slots).first(some.size()), std::span(copies).first(some.size()),
+                        std::span(hits).subspan(first, some.size()));
+        }
+        return hits;
+    }
+
+  private:
+    static FrameParameters frame(uint32_t seed) {
+        FrameParameters frame{};
+        frame.imageWidth = 512;
+        frame.seed = seed;
+        frame.clipDepth = std::numeric_limits<float>::infinity();
+        frame.cameraForward = {0.0f, 0.0f, -1.0f};
+        return frame;
+    }
+    static WaveRange range(size_t slots) {
+        WaveRange range{};
+        range.pixelCount = static_cast<uint32_t>(slots);
+        range.sampleCount = 1;
+        return range;
+    }
+
+    HostRays host_;
+};
+
+size_t differences(const std::vector<Hit>& a, const std::vector<Hit>& b) {
+    size_t count = 0;
+    for (size_t i = 0; i < a.size(); ++i) {
+        const bool isSame =
+            a[i].t == b[i].t &&
+            (std::isinf(a[i].t) || (a[i].record == b[i].record && a[i].barycentrics == b[i].barycentrics));
+        count += isSame ? 0 : 1;
+    }
+    return count;
+}
+
+// Where chance, alpha and culling decide what a ray meets.
+TEST_F(RaysTogether, ThroughAlphaAndCulledFacesFindTheSame) {
+    constexpr size_t kRays = 100'000;
+    const Scene scene = makeShells();
+    const GpuScene gpuScene = upload(scene);
+    const HostScene hosted = hostScene(gpuScene, kFeatureAlpha | kFeatureVertexColors);
+    Random random(4);
+    for (int round = 0; round < rounds(); ++round) {
+        const auto seed = static_cast<uint32_t>(round + 1);
+        const std::vector<Ray> camera = makeCameraRays(scene.cameras.front(), kRays, seed);
+        SlotTracer tracer(hosted, seed, camera.size());
+        std::vector<SlotAndRay> fromCamera;
+        std::vector<SlotAndRay> fromInside;
+        for (uint32_t slot = 0; slot < camera.size(); ++slot) {
+            fromCamera.push_back({slot, camera[slot]});
+            fromInside.push_back(
+                {slot, freeRay(0.9f * random.unit() * random.direction(), random.direction())});
+        }
+        for (const uint32_t bounce : {0u, 1u})
+            for (std::vector<SlotAndRay>* rays : {&fromCamera, &fromInside}) {
+                if (bounce == 0 && rays == &fromInside)
+                    continue; // no camera looks backwards
+                const std::vector<Hit> alone = tracer.alone(bounce, *rays);
+                EXPECT_EQ(differences(alone, tracer.together(bounce, *rays)), 0u);
+                const std::vector<Hit> byOtherChance =
+                    SlotTracer(hosted, seed + 1000, camera.size()).alone(bounce, *rays);
+                EXPECT_GT(differences(alone, byOtherChance), camera.size() / 20)
+                    << "alpha lets nothing through";
+                std::shuffle(rays->begin(), rays->end(), std::mt19937(seed));
+                EXPECT_EQ(differences(tracer.alone(bounce, *rays), tracer.together(bounce, *rays)), 0u);
+            }
     }
 }
 

@@ -4,6 +4,9 @@
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
+#include <optional>
+#include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -12,11 +15,16 @@
 
 #include "base/error.h"
 #include "base/log.h"
+#include "base/parallel.h"
+#include "cli/options/named_option.h"
 #include "cli/options/scene_options.h"
 #include "device_scene/gpu_scene.h"
 #include "inspect/embree_oracle.h"
 #include "inspect/ray_sets.h"
 #include "inspect/ray_tracer.h"
+#include "kernels/kernel_source.h"
+#include "render/schedule_choice.h"
+#include "render/setting_names.h"
 #include "session/builtin.h"
 
 namespace lavalight {
@@ -32,8 +40,8 @@ struct Row {
     double agreement = 0.0; // share of the rays with the same answer from both
     double ours = 0.0;      // Mrays/s, median over the repeats
     double embree = 0.0;
-    double nodes = 0.0; // and triangles that a ray of ours visits on average
-    double triangles = 0.0;
+    std::optional<double> nodes{}; // and triangles that a ray of ours visits on average, where we traverse
+    std::optional<double> triangles{};
     [[nodiscard]] double ratio() const { return ours / embree; }
 };
 
@@ -73,10 +81,13 @@ OracleRay toOracle(const ShadowRay& ray) {
 // Both tracers over one scene, and how often to ask them.
 class RayBench {
   public:
-    RayBench(gpu::Device& device, const Scene& scene, uint32_t repeats)
+    RayBench(gpu::Device& device, const Scene& scene, AcceleratorKind accelerator, uint32_t repeats)
         : scene_(&scene), repeats_(repeats), triangles_(sceneTriangles(scene)),
-          gpuScene_(device, packScene(scene)), tracer_(device, gpuScene_), counter_(device, gpuScene_, true),
-          oracle_(triangles_, EmbreeOracle::Traversal::fast) {}
+          gpuScene_(device, packScene(scene, accelerator)), tracer_(device, gpuScene_),
+          oracle_(triangles_, EmbreeOracle::Traversal::fast) {
+        if (accelerator == AcceleratorKind::bvh8)
+            counter_.emplace(device, gpuScene_, true);
+    }
 
     // Camera rays, then rays of the other kinds from where those hit.
     [[nodiscard]] std::vector<Row> run(size_t count) {
@@ -123,9 +134,11 @@ class RayBench {
                 millions / std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
             compare(ours, theirs, row);
         }
-        static_cast<void>(traceOurs(counter_, rays));
-        row.nodes = counter_.lastVisits().nodes / static_cast<double>(rays.size());
-        row.triangles = counter_.lastVisits().triangles / static_cast<double>(rays.size());
+        if (counter_) {
+            static_cast<void>(traceOurs(*counter_, rays));
+            row.nodes = counter_->lastVisits().nodes / static_cast<double>(rays.size());
+            row.triangles = counter_->lastVisits().triangles / static_cast<double>(rays.size());
+        }
         row.ours = median(ourSpeeds);
         row.embree = median(theirSpeeds);
         return row;
@@ -148,47 +161,52 @@ class RayBench {
     std::vector<Triangle> triangles_;
     GpuScene gpuScene_;
     RayTracer tracer_;
-    RayTracer counter_; // slower: its times do not count
+    std::optional<RayTracer> counter_; // slower: its times do not count
     EmbreeOracle oracle_;
 };
 
-void printText(const Scene& scene, const gpu::DeviceDescription& device, const std::vector<Row>& rows) {
-    fmt::print("{}: {} triangles; {} with {}; million rays per second\n", scene.source, scene.triangleCount(),
-               device.name, device.driver);
+void printText(const Scene& scene, const gpu::DeviceDescription& device, const std::string& accelerator,
+               const std::vector<Row>& rows) {
+    const auto orNothing = [](const std::optional<double>& value) {
+        return value ? fmt::format("{:.1f}", *value) : "-";
+    };
+    fmt::print("{}: {} triangles; {} with {}, accelerator {}; million rays per second\n", scene.source,
+               scene.triangleCount(), device.name, device.driver, accelerator);
     fmt::print("{:<8}{:>10}{:>8}{:>12}{:>10}{:>8}{:>13}{:>9}{:>11}\n", "rays", "count", "hit", "Lavalight",
                "Embree", "ratio", "agreement", "nodes", "triangles");
     for (const Row& row : rows)
-        fmt::print("{:<8}{:>10}{:>7.1f}%{:>12.2f}{:>10.2f}{:>8.2f}{:>12.4f}%{:>9.1f}{:>11.1f}\n", row.kind,
+        fmt::print("{:<8}{:>10}{:>7.1f}%{:>12.2f}{:>10.2f}{:>8.2f}{:>12.4f}%{:>9}{:>11}\n", row.kind,
                    row.rays, 100.0 * row.hitShare, row.ours, row.embree, row.ratio(), 100.0 * row.agreement,
-                   row.nodes, row.triangles);
+                   orNothing(row.nodes), orNothing(row.triangles));
 }
 
-void printJson(const Scene& scene, const gpu::DeviceDescription& device, const std::vector<Row>& rows,
-               uint32_t repeats) {
+void printJson(const Scene& scene, const gpu::DeviceDescription& device, const std::string& accelerator,
+               const std::vector<Row>& rows, uint32_t repeats) {
     auto kinds = nlohmann::ordered_json::array();
-    for (const Row& row : rows)
+    for (const Row& row : rows) {
         kinds.push_back({{"kind", row.kind},
                          {"rays", row.rays},
                          {"hitShare", row.hitShare},
                          {"megaraysPerSecond", row.ours},
                          {"embreeMegaraysPerSecond", row.embree},
                          {"ratio", row.ratio()},
-                         {"agreement", row.agreement},
-                         {"nodesPerRay", row.nodes},
-                         {"trianglesPerRay", row.triangles}});
+                         {"agreement", row.agreement}});
+        if (row.nodes) {
+            kinds.back()["nodesPerRay"] = *row.nodes;
+            kinds.back()["trianglesPerRay"] = *row.triangles;
+        }
+    }
     const char* threads = std::getenv(kThreadVariable);
-    const nlohmann::ordered_json json = {{"scene", scene.source},
-                                         {"triangles", scene.triangleCount()},
-                                         {"device", device.name},
-                                         {"driver", device.driver},
-                                         {"threads", threads != nullptr ? threads : ""},
-                                         {"repeats", repeats},
-                                         {"rays", kinds}};
+    const nlohmann::ordered_json json = {
+        {"scene", scene.source},      {"triangles", scene.triangleCount()},
+        {"device", device.name},      {"driver", device.driver},
+        {"accelerator", accelerator}, {"threads", threads != nullptr ? threads : ""},
+        {"repeats", repeats},         {"rays", kinds}};
     fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
 }
 
 // Embree traces on one thread; a CPU device has to do the same for the ratio to mean anything.
-void limitThreads() {
+void limitDeviceThreads() {
     const char* set = std::getenv(kThreadVariable);
     if (set != nullptr && std::string(set) != "1")
         spdlog::warn("{} is {}: the ratio does not compare single threads", kThreadVariable, set);
@@ -211,6 +229,8 @@ BenchCommand::BenchCommand(CLI::App& app) : Command(app, "bench", "Measure speed
         ->check(CLI::Range(1000u, 4000000u));
     rays.add_option("--repeats", repeats_, "Runs of each side, alternating; their median counts")
         ->check(CLI::Range(1u, 1000u));
+    addNamed(rays, "--accelerator", accelerator_,
+             "What finds the triangles that our rays meet, as in a render");
     deviceOptions_.emplace(rays);
     rays.add_flag("--json", json_, "Print JSON");
     addAllowExternal(rays, import_);
@@ -220,15 +240,22 @@ int BenchCommand::run() {
     const Scene scene = loadScene(scene_, import_);
     for (const std::string& warning : scene.warnings)
         spdlog::warn("{}", warning);
-    limitThreads();
+    limitDeviceThreads();
     gpu::Device device(deviceOptions_->config());
     if (device.limits().timestampNanoseconds == 0.0)
         throw Error(fmt::format("cannot bench on {}: it has no timestamps", device.description().name));
-    const std::vector<Row> rows = RayBench(device, scene, repeats_).run(rays_);
+    RenderSettings asked;
+    asked.work.accelerator = accelerator_;
+    const RenderSettings settings = resolveSchedule(asked, device.description(), embeddedKernel);
+    RayBench bench(device, scene, acceleratorOf(settings), repeats_);
+    if (std::getenv(kThreadVariable) == std::string_view("1"))
+        limitThreads(1); // of rays that the host traces
+    const std::vector<Row> rows = bench.run(rays_);
+    const std::string accelerator(nameOf(settings.work.accelerator));
     if (json_)
-        printJson(scene, device.description(), rows, repeats_);
+        printJson(scene, device.description(), accelerator, rows, repeats_);
     else
-        printText(scene, device.description(), rows);
+        printText(scene, device.description(), accelerator, rows);
     return 0;
 }
 

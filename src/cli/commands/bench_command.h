@@ -8,6 +8,7 @@
 #include "cli/command.h"
 #include "cli/options/device_options.h"
 #include "gltf/import_options.h"
+#include "render/settings.h"
 
 namespace lavalight {
 
@@ -21,7 +22,8 @@ class BenchCommand : public Command {
     std::string scene_;
     ImportOptions import_;
     std::optional<DeviceOptions> deviceOptions_; // always there
-    uint32_t rays_ = 1000000;                    // number of camera rays; the others start where these hit
+    RayAccelerator accelerator_ = RayAccelerator::bvh8;
+    uint32_t rays_ = 1000000; // number of camera rays; the others start where these hit
     uint32_t repeats_ = 5;
     bool json_ = false;
 };
