@@ -1,4 +1,4 @@
-// Picks a light by descending into one of two children at a time, each as likely as what it may bring to the receiver.
+// Picks a light by descending from child to child, each as likely as what it may bring to the receiver among all of its node.
 // Based on: Conty Estevez, Kulla, "Importance Sampling of Many Lights with Adaptive Tree Splitting", 2018, section 5.
 #include "lib/features.glsl"
 #include "lib/sampling/light_importance.glsl"
@@ -18,22 +18,39 @@ LightTreeRecord fetchLightTreeNode(uint index) {
                            inverseRange2, float[3](0.0, 0.0, 0.0));
 }
 
-// Two neighbours in the tree, and the probability of the first.
-struct LightTreePair {
-    uint references[2];
-    float first; // negative: neither brings anything
+// What the children of a node bring to a receiver, each together with those before it.
+struct LightTreeSums {
+    float upTo[kLightTreeWidth];
 };
 
-LightTreePair fetchLightTreePair(uint index, Receiver receiver) {
-    const LightTreeRecord a = fetchLightTreeNode(index);
-    const LightTreeRecord b = fetchLightTreeNode(index + 1u);
-    const float first = lightImportance(a, receiver.p, receiver.n, receiver.bothSides);
-    const float both = first + lightImportance(b, receiver.p, receiver.n, receiver.bothSides);
-    return LightTreePair(uint[2](a.reference, b.reference), both > 0.0 ? first / both : -1.0);
+LightTreeSums sumsOfChildren(uint first, Receiver receiver) {
+    LightTreeSums sums;
+    float sum = 0.0;
+    for (uint i = 0u; i < kLightTreeWidth; ++i) {
+        sum += lightImportance(fetchLightTreeNode(first + i), receiver.p, receiver.n, receiver.bothSides);
+        sums.upTo[i] = sum;
+    }
+    return sums;
 }
 
-uint lightTreeRoot() {
-    return texelFetch(lightTree, 1).w;
+// The child whose part of the sum contains `place`; children that bring nothing have no part.
+uint childAt(LightTreeSums sums, float place) {
+    uint child = 0u;
+    for (uint i = 1u; i < kLightTreeWidth; ++i)
+        child = place >= sums.upTo[i - 1u] && sums.upTo[i] > sums.upTo[i - 1u] ? i : child;
+    return child;
+}
+
+// Where the child's part of the sum begins and ends.
+vec2 partOfChild(LightTreeSums sums, uint child) {
+    vec2 part = vec2(0.0, sums.upTo[0]);
+    for (uint i = 1u; i < kLightTreeWidth; ++i)
+        part = child == i ? vec2(sums.upTo[i - 1u], sums.upTo[i]) : part;
+    return part;
+}
+
+uint lightTreeReference(uint index) {
+    return texelFetch(lightTree, int(kLightTreeTexels * index) + 1).w;
 }
 
 bool isLightTreeLeaf(uint reference) {
@@ -47,15 +64,19 @@ struct LightTreePick {
 };
 
 LightTreePick pickFromLightTree(Receiver receiver, float u) {
-    uint reference = lightTreeRoot();
+    uint reference = lightTreeReference(0u);
     LightTreePick pick = LightTreePick(0u, 1.0, u);
     while (!isLightTreeLeaf(reference)) {
-        const LightTreePair pair = fetchLightTreePair(reference & kLightTreeIndexMask, receiver);
-        const bool isFirst = pick.place < pair.first;
-        const float probability = isFirst ? pair.first : 1.0 - pair.first;
-        pick.pmf *= pair.first < 0.0 ? 0.0 : probability;
-        pick.place = (isFirst ? pick.place : pick.place - pair.first) / probability;
-        reference = pick.pmf > 0.0 ? pair.references[isFirst ? 0 : 1] : kLightTreeLeafBit;
+        const uint first = reference & kLightTreeIndexMask;
+        const LightTreeSums sums = sumsOfChildren(first, receiver);
+        const float all = sums.upTo[kLightTreeWidth - 1u];
+        const float place = pick.place * all;
+        const uint child = childAt(sums, place);
+        const vec2 part = partOfChild(sums, child);
+        const float width = part.y - part.x;
+        pick.pmf *= all > 0.0 ? width / all : 0.0;
+        pick.place = (place - part.x) / width;
+        reference = pick.pmf > 0.0 ? lightTreeReference(first + child) : kLightTreeLeafBit;
     }
     pick.light = reference & kLightTreeIndexMask;
     return pick;
@@ -63,14 +84,17 @@ LightTreePick pickFromLightTree(Receiver receiver, float u) {
 
 // Probability with which pickFromLightTree picks the light at the end of `path`.
 float lightTreePmf(Receiver receiver, uint path) {
-    uint reference = lightTreeRoot();
+    uint reference = lightTreeReference(0u);
     float pmf = 1.0;
     while (!isLightTreeLeaf(reference) && pmf > 0.0) {
-        const LightTreePair pair = fetchLightTreePair(reference & kLightTreeIndexMask, receiver);
-        const bool isFirst = (path & 1u) == 0u;
-        pmf *= pair.first < 0.0 ? 0.0 : isFirst ? pair.first : 1.0 - pair.first;
-        reference = pair.references[isFirst ? 0 : 1];
-        path >>= 1u;
+        const uint first = reference & kLightTreeIndexMask;
+        const LightTreeSums sums = sumsOfChildren(first, receiver);
+        const float all = sums.upTo[kLightTreeWidth - 1u];
+        const uint child = path & (kLightTreeWidth - 1u);
+        const vec2 part = partOfChild(sums, child);
+        pmf *= all > 0.0 ? (part.y - part.x) / all : 0.0;
+        reference = lightTreeReference(first + child);
+        path >>= kLightTreeChildBits;
     }
     return pmf;
 }

@@ -113,7 +113,8 @@ SHARED_CONST uint kLightPunctual = 1u;
 SHARED_CONST uint kLightEnvironment = 2u;
 SHARED_CONST uint kLightTree = 3u; // no light itself
 
-// Three texels a node of the light tree: what its lights may send where. Children are neighbours; the root is node 0.
+// Three texels a node of the light tree: what its lights may send where. The root is node 0. Children are kLightTreeWidth
+// neighbours; those that are missing are leaves without intensity.
 struct LightTreeRecord {
     vec3 center; // centre of a sphere around all lights
     float radius;
@@ -125,6 +126,8 @@ struct LightTreeRecord {
     float unused[3];
 };
 SHARED_CONST uint kLightTreeTexels = 3u;
+SHARED_CONST uint kLightTreeWidth = 8u;
+SHARED_CONST uint kLightTreeChildBits = 3u; // of a path to a light, for each level
 SHARED_CONST uint kLightTreeLeafBit = 0x80000000u;
 SHARED_CONST uint kLightTreeTwoSidedBit = 0x40000000u; // light leaves against the normals too
 SHARED_CONST uint kLightTreeIndexMask = 0x3fffffffu;

@@ -1,6 +1,7 @@
 // Based on: Conty Estevez, Kulla, "Importance Sampling of Many Lights with Adaptive Tree Splitting", 2018,
 // section 4. Changed: the size of a cluster is the square of its box's diagonal, not the box's surface, which
-// is nothing for lights in a row.
+// is nothing for lights in a row. Nodes have eight children, those of a binary tree: the more are compared at
+// once, the more exactly a pick follows what lights bring.
 #include "light/light_tree.h"
 
 #include <algorithm>
@@ -11,6 +12,9 @@
 #include <numbers>
 #include <numeric>
 #include <optional>
+#include <utility>
+
+#include "shared/scene.h"
 
 namespace lavalight {
 namespace {
@@ -75,36 +79,44 @@ std::array<double, kBuckets> splitCosts(const Buckets& buckets) {
     return costs;
 }
 
-class Builder {
+// A node of two children, which are neighbours.
+struct BinaryNode {
+    LightBounds bounds;
+    uint32_t height = 0; // levels below; 0: a leaf
+    uint32_t index = 0;  // leaf: the light; else the first child
+};
+
+// Three of its levels make one of the tree of eight children (opened()).
+constexpr uint32_t kMostBinaryLevels = kLightTreeChildBits * kMostLightTreeLevels;
+
+class BinaryBuilder {
   public:
-    explicit Builder(std::span<const LightBounds> lights) : lights_(lights) {
-        tree_.paths.resize(lights.size());
-        if (lights.empty())
-            return;
-        tree_.nodes.reserve(2 * lights.size() - 1);
+    explicit BinaryBuilder(std::span<const LightBounds> lights) : lights_(lights) {
+        nodes_.reserve(2 * lights.size() - 1);
         std::vector<uint32_t> ids(lights.size());
         std::iota(ids.begin(), ids.end(), 0u);
-        tree_.nodes.emplace_back();
-        build(0, ids, 0, 0);
+        nodes_.emplace_back();
+        build(0, ids, 0);
     }
 
-    LightTree take() { return std::move(tree_); }
+    std::vector<BinaryNode> take() { return std::move(nodes_); }
 
   private:
-    // Fills `node` with the lights of `ids`; `path` leads to the node.
-    void build(size_t node, Ids ids, uint32_t path, uint32_t level) {
+    // Fills `node` with the lights of `ids`.
+    void build(size_t node, Ids ids, uint32_t level) {
         if (ids.size() == 1) {
-            tree_.nodes[node] = {lights_[ids[0]], true, ids[0]};
-            tree_.paths[ids[0]] = path;
+            nodes_[node] = {lights_[ids[0]], 0, ids[0]};
             return;
         }
-        const size_t firstCount = partition(ids, kMostLightTreeLevels - level);
-        const size_t children = tree_.nodes.size();
-        tree_.nodes.resize(children + 2);
-        build(children, ids.first(firstCount), path, level + 1);
-        build(children + 1, ids.subspan(firstCount), path | 1u << level, level + 1);
-        tree_.nodes[node] = {unite(tree_.nodes[children].bounds, tree_.nodes[children + 1].bounds), false,
-                             static_cast<uint32_t>(children)};
+        const size_t firstCount = partition(ids, kMostBinaryLevels - level);
+        const size_t children = nodes_.size();
+        nodes_.resize(children + 2);
+        build(children, ids.first(firstCount), level + 1);
+        build(children + 1, ids.subspan(firstCount), level + 1);
+        const BinaryNode& first = nodes_[children];
+        const BinaryNode& second = nodes_[children + 1];
+        nodes_[node] = {unite(first.bounds, second.bounds), 1 + std::max(first.height, second.height),
+                        static_cast<uint32_t>(children)};
     }
 
     // Sorts ids into two sides and returns the size of the first.
@@ -166,13 +178,65 @@ class Builder {
     }
 
     std::span<const LightBounds> lights_;
+    std::vector<BinaryNode> nodes_;
+};
+
+// Takes a binary tree's nodes eight at a time.
+class Collapse {
+  public:
+    explicit Collapse(std::vector<BinaryNode> nodes) : nodes_(std::move(nodes)) {
+        tree_.paths.resize((nodes_.size() + 1) / 2); // one for each leaf
+        tree_.nodes.emplace_back();
+        collapse(0, 0, 0, 0);
+    }
+
+    LightTree take() { return std::move(tree_); }
+
+  private:
+    // Fills the node at `to` with what is below `from`; `path` leads there.
+    void collapse(size_t to, uint32_t from, uint32_t path, uint32_t level) {
+        const BinaryNode& node = nodes_[from];
+        if (node.height == 0) {
+            tree_.nodes[to] = {node.bounds, true, node.index};
+            tree_.paths[node.index] = path;
+            return;
+        }
+        const size_t first = tree_.nodes.size();
+        tree_.nodes[to] = {node.bounds, false, static_cast<uint32_t>(first)};
+        tree_.nodes.resize(first + kLightTreeWidth);
+        const std::vector<uint32_t> children = opened(from);
+        for (uint32_t i = 0; i < children.size(); ++i)
+            collapse(first + i, children[i], path | i << (kLightTreeChildBits * level), level + 1);
+    }
+
+    // The node's children, of which the highest, and among these the brightest, gives its place to its own
+    // until there are eight. Three levels go at least: of the seven nodes of the first three, none is higher
+    // than one that was opened before it.
+    [[nodiscard]] std::vector<uint32_t> opened(uint32_t node) const {
+        std::vector<uint32_t> open{node};
+        while (open.size() < kLightTreeWidth) {
+            const auto highest = std::ranges::max_element(open, {}, [&](uint32_t i) {
+                return std::pair(nodes_[i].height, nodes_[i].bounds.intensity);
+            });
+            if (nodes_[*highest].height == 0)
+                break;
+            const uint32_t child = nodes_[*highest].index;
+            *highest = child;
+            open.insert(highest + 1, child + 1);
+        }
+        return open;
+    }
+
+    std::vector<BinaryNode> nodes_;
     LightTree tree_;
 };
 
 } // namespace
 
 LightTree buildLightTree(std::span<const LightBounds> lights) {
-    return Builder(lights).take();
+    if (lights.empty())
+        return {};
+    return Collapse(BinaryBuilder(lights).take()).take();
 }
 
 } // namespace lavalight

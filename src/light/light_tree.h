@@ -1,5 +1,4 @@
-// A binary tree over lights, so that one can be picked by what it brings to a point without asking all of
-// them.
+// A tree over lights, so that one can be picked by what it brings to a point without asking all of them.
 #pragma once
 
 #include <cstdint>
@@ -10,18 +9,20 @@
 
 namespace lavalight {
 
-// Bits of LightTree::paths; no tree is deeper.
-constexpr uint32_t kMostLightTreeLevels = 32;
+// No tree is deeper: kLightTreeChildBits of LightTree::paths for each level.
+constexpr uint32_t kMostLightTreeLevels = 10;
 
 struct LightTreeNode {
     LightBounds bounds;
     bool isLeaf = true;
-    uint32_t index = 0; // leaf: the light; else the first of two children, which are neighbours
+    // Leaf: the light; else the first of kLightTreeWidth children, which are neighbours. Those that are
+    // missing are leaves without intensity.
+    uint32_t index = 0;
 };
 
 struct LightTree {
     std::vector<LightTreeNode> nodes; // the root first; empty without lights
-    // The way to each light's leaf: bit i is set where, i levels below the root, it is in the second child.
+    // The way to each light's leaf: which child of the root, in the lowest bits, then which of that one's.
     std::vector<uint32_t> paths;
 };
 

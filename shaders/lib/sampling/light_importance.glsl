@@ -13,7 +13,7 @@ float cosOfDifference(float cosA, float cosB) {
     return cosA > cosB ? 1.0 : cosA * cosB + sines;
 }
 
-const float kLargestImportance = 1e30; // the sum of two stays finite
+const float kLargestImportance = 1e30; // the sum of a node's children stays finite
 
 // `n`: the receiver's normal; `bothSides`: light from behind counts too. Proportional to W/m^2.
 float lightImportance(LightTreeRecord node, vec3 p, vec3 n, bool bothSides) {

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "shared/scene.h"
 #include "support/random_numbers.h"
 
 namespace lavalight::test {
@@ -65,7 +66,7 @@ void expectContains(const LightBounds& outer, const LightBounds& inner, uint32_t
 
 void expectSound(const std::vector<LightBounds>& lights) {
     const LightTree tree = buildLightTree(lights);
-    ASSERT_EQ(tree.nodes.size(), 2 * lights.size() - 1);
+    ASSERT_EQ(tree.nodes.size() % kLightTreeWidth, 1u);
     ASSERT_EQ(tree.paths.size(), lights.size());
     double intensity = 0.0;
     for (uint32_t light = 0; light < lights.size(); ++light) {
@@ -74,18 +75,43 @@ void expectSound(const std::vector<LightBounds>& lights) {
         for (; !tree.nodes[node].isLeaf; ++level) {
             ASSERT_LT(level, kMostLightTreeLevels);
             expectContains(tree.nodes[node].bounds, lights[light], light);
-            node = tree.nodes[node].index + (tree.paths[light] >> level & 1u);
+            const uint32_t child = tree.paths[light] >> (kLightTreeChildBits * level) & (kLightTreeWidth - 1);
+            node = tree.nodes[node].index + child;
+            ASSERT_LT(node, tree.nodes.size());
         }
         EXPECT_EQ(tree.nodes[node].index, light);
         intensity += lights[light].intensity;
     }
     EXPECT_NEAR(tree.nodes[0].bounds.intensity, intensity, 1e-9 * intensity);
+    size_t leaves = 0; // that are no gaps
+    for (const LightTreeNode& node : tree.nodes)
+        leaves += node.isLeaf && node.bounds.intensity > 0.0 ? 1 : 0;
+    EXPECT_EQ(leaves, lights.size());
+}
+
+uint32_t levelsOf(const LightTree& tree, uint32_t node = 0) {
+    if (tree.nodes[node].isLeaf)
+        return 0;
+    uint32_t levels = 0;
+    for (uint32_t i = 0; i < kLightTreeWidth; ++i)
+        levels = std::max(levels, levelsOf(tree, tree.nodes[node].index + i));
+    return 1 + levels;
 }
 
 TEST(LightTree, PathsLeadToLightsThroughNodesThatBoundThem) {
     expectSound(randomPanels(1));
     expectSound(randomPanels(2));
     expectSound(randomPanels(3000));
+}
+
+// Nodes are filled as far as there are lights.
+TEST(LightTree, HasEightChildrenANode) {
+    const LightTree eight = buildLightTree(randomPanels(8));
+    EXPECT_EQ(eight.nodes.size(), 9u);
+    EXPECT_EQ(levelsOf(eight), 1u);
+    EXPECT_EQ(levelsOf(buildLightTree(std::vector<LightBounds>(512, lampAt({1, 2, 3})))), 3u);
+    EXPECT_LE(levelsOf(buildLightTree(randomPanels(3000))), 6u);
+    EXPECT_LT(buildLightTree(randomPanels(3000)).nodes.size(), 8000u);
 }
 
 TEST(LightTree, WithoutLightsIsEmpty) {
@@ -111,8 +137,8 @@ TEST(LightTree, SeparatesLightsThatShineApart) {
         lights.back().cone = {{0, 0, i < 8 ? 1 : -1}, 0.0, 0.5 * pi};
     }
     const LightTree tree = buildLightTree(lights);
-    EXPECT_LT(tree.nodes[tree.nodes[0].index].bounds.cone.spread, 0.01);
-    EXPECT_LT(tree.nodes[tree.nodes[0].index + 1].bounds.cone.spread, 0.01);
+    for (uint32_t i = 0; i < kLightTreeWidth; ++i)
+        EXPECT_LT(tree.nodes[tree.nodes[0].index + i].bounds.cone.spread, 0.01);
 }
 
 TEST(LightCone, OfTwoTouchesTheFarRimsOfBoth) {
