@@ -56,13 +56,13 @@ Box boxAround(std::span<const Box> boxes) {
 
 // Children that are missing have boxes that meet nothing.
 ZCurveTree::Node ZCurveTree::nodeOf(std::span<const Box> children) {
-    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    constexpr float kNone = std::numeric_limits<float>::quiet_NaN(); // no comparison with it is true
     Node node{};
     for (glm::length_t axis = 0; axis < 3; ++axis)
         for (size_t i = 0; i < kChildren; ++i) {
             const bool isThere = i < children.size();
-            node.lower[static_cast<size_t>(axis)][i] = isThere ? children[i].lower[axis] : kInfinity;
-            node.upper[static_cast<size_t>(axis)][i] = isThere ? children[i].upper[axis] : -kInfinity;
+            node.lower[static_cast<size_t>(axis)][i] = isThere ? children[i].lower[axis] : kNone;
+            node.upper[static_cast<size_t>(axis)][i] = isThere ? children[i].upper[axis] : kNone;
         }
     return node;
 }

@@ -210,8 +210,8 @@ class Collapse {
     }
 
     // The node's children, of which the highest, and among these the brightest, gives its place to its own
-    // until there are eight. Three levels go at least: of the seven nodes of the first three, none is higher
-    // than one that was opened before it.
+    // until there are eight. All of them are three levels lower than the node, at least: only the seven nodes
+    // of its first three levels can be higher, and they are the first to give their places away.
     [[nodiscard]] std::vector<uint32_t> opened(uint32_t node) const {
         std::vector<uint32_t> open{node};
         while (open.size() < kLightTreeWidth) {

@@ -118,6 +118,8 @@ void TextureMean::countLit(Level& level) {
             level.lit[(y + 1) * stride + x + 1] = level.lit[y * stride + x + 1] + inRow;
         }
     }
+    if (level.lit.back() == level.texels.size())
+        level.lit.clear();
 }
 
 TextureMean::Level TextureMean::halved(const Level& level) {
@@ -140,10 +142,15 @@ TextureMean::Triangle TextureMean::onLevel(const std::array<glm::vec2, 3>& uvs, 
     Triangle triangle;
     for (size_t i = 0; i < 3; ++i) {
         const glm::dvec3 uv(uvs[i], 1.0);
-        triangle.corners[i] = {glm::dot(glm::dvec3(texture_.uRow), uv) * level.width,
-                               glm::dot(glm::dvec3(texture_.vRow), uv) * level.height};
+        glm::dvec2& corner = triangle.corners[i];
+        corner = {glm::dot(glm::dvec3(texture_.uRow), uv) * level.width,
+                  glm::dot(glm::dvec3(texture_.vRow), uv) * level.height};
         if (!texture_.isNearest)
-            triangle.corners[i] -= 0.5;
+            corner -= 0.5;
+        // Numbers of texels stay within 64 bits.
+        constexpr double kFarthest = 1e15;
+        if (!(glm::length(corner) <= kFarthest))
+            corner = glm::dvec2(0.0);
     }
     return triangle;
 }
@@ -163,6 +170,8 @@ TextureMean::Cell TextureMean::cellAt(const Level& level, int64_t x, int64_t y) 
 
 // Whether all texels that a triangle's cells are made of are black.
 bool TextureMean::isBlackUnder(const Triangle& triangle, const Level& level) const {
+    if (level.lit.empty())
+        return false;
     const Polygon polygon(triangle.corners);
     const Range columns = inPicture(texelsOf(polygon, 0, texture_.isNearest), level.width, texture_.wrapU);
     const Range rows = inPicture(texelsOf(polygon, 1, texture_.isNearest), level.height, texture_.wrapV);

@@ -29,7 +29,7 @@ class TextureMean {
         uint32_t height = 0;
         std::vector<glm::vec3> texels;
         // How many texels are not black above and to the left of each corner of the texels, in rows of
-        // width + 1: most of most emission textures is black.
+        // width + 1: most of most emission textures is black. Empty: none is.
         std::vector<uint32_t> lit;
     };
     struct Triangle { // in texels of a level

@@ -43,7 +43,7 @@ class Input {
         return value;
     }
 
-    // A number as glTF's text could hold it.
+    // A finite number of single precision.
     double finite() {
         const auto value = number<float>();
         return std::isfinite(value) ? value : 0.5;

@@ -210,8 +210,11 @@ void limitDeviceThreads() {
     const char* set = std::getenv(kThreadVariable);
     if (set != nullptr && std::string(set) != "1")
         spdlog::warn("{} is {}: the ratio does not compare single threads", kThreadVariable, set);
-    if (set != nullptr)
+    if (set != nullptr) {
+        if (const unsigned long threads = std::strtoul(set, nullptr, 10); threads > 1 && threads < 1000)
+            limitThreads(static_cast<unsigned>(threads));
         return;
+    }
     ::setenv(kThreadVariable, "1", 0);
     spdlog::info("setting {}=1: one thread for each side", kThreadVariable);
 }
@@ -230,17 +233,17 @@ BenchCommand::BenchCommand(CLI::App& app) : Command(app, "bench", "Measure speed
     rays.add_option("--repeats", repeats_, "Runs of each side, alternating; their median counts")
         ->check(CLI::Range(1u, 1000u));
     addNamed(rays, "--accelerator", accelerator_,
-             "What finds the triangles that our rays meet, as in a render");
+             "What finds the triangles that our rays meet, each asked for by itself");
     deviceOptions_.emplace(rays);
     rays.add_flag("--json", json_, "Print JSON");
     addAllowExternal(rays, import_);
 }
 
 int BenchCommand::run() {
+    limitDeviceThreads();
     const Scene scene = loadScene(scene_, import_);
     for (const std::string& warning : scene.warnings)
         spdlog::warn("{}", warning);
-    limitDeviceThreads();
     gpu::Device device(deviceOptions_->config());
     if (device.limits().timestampNanoseconds == 0.0)
         throw Error(fmt::format("cannot bench on {}: it has no timestamps", device.description().name));

@@ -26,8 +26,10 @@ struct Target {
     std::optional<size_t> element; // of an array that is animated one by one
 };
 
+// An index as RFC 6901 has it, without leading zeros.
 bool isNumber(const std::string& token) {
-    return !token.empty() && token.size() < 10 && token.find_first_not_of("0123456789") == std::string::npos;
+    return !token.empty() && token.size() < 10 && (token == "0" || token.front() != '0') &&
+           token.find_first_not_of("0123456789") == std::string::npos;
 }
 
 // None for what is not a pointer to a member.

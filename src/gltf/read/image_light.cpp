@@ -81,8 +81,8 @@ Harmonics toRadiance(JsonView irradiance) {
     Harmonics radiance;
     for (size_t i = 0; i < radiance.size(); ++i) {
         const JsonView color = irradiance[i];
-        radiance[i] = glm::dvec3(color[0].asNumber(0.0), color[1].asNumber(0.0), color[2].asNumber(0.0)) /
-                      kConvolution[i];
+        const glm::dvec3 value(color[0].asNumber(0.0), color[1].asNumber(0.0), color[2].asNumber(0.0));
+        radiance[i] = glm::clamp(value, -kBrightest, kBrightest) / kConvolution[i];
     }
     return radiance;
 }

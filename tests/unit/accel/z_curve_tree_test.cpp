@@ -79,6 +79,14 @@ TEST(ZCurveTree, HoldsTrianglesInOnePlaceAndOnALine) {
               0u);
     EXPECT_EQ(foundIn(ZCurveTree(std::vector<Triangle>(50, one)), {glm::vec3(0.0f), glm::vec3(0.3f)}).size(),
               50u);
+    std::vector<Triangle> line;
+    for (int i = 0; i < 50; ++i) {
+        const glm::vec3 shift(1e15f * static_cast<float>(i), 0.0f, 0.0f);
+        line.push_back({one.v0 + shift, one.v1 + shift, one.v2 + shift});
+    }
+    const ZCurveTree tree(line);
+    EXPECT_EQ(foundIn(tree, {{5e15f, 0, 0}, {8e15f, 0, 0}}), (std::vector<uint32_t>{5, 6, 7, 8}));
+    EXPECT_EQ(foundIn(tree, {glm::vec3(-INFINITY), glm::vec3(INFINITY)}).size(), 50u);
 }
 
 } // namespace

@@ -159,9 +159,11 @@ TEST(GltfAnimationPointer, ArraysAndTheirElementsMayBothBeAnimated) {
 }
 
 TEST(GltfAnimationPointer, ElementsThatAnArrayDoesNotHaveAreNotAdded) {
-    GltfBuilder builder = animated("/meshes/0/weights/2", {1, 1}, "SCALAR");
-    builder.json["meshes"][0]["weights"] = {0.0, 0.0};
-    EXPECT_EQ(warningsWith(at(builder, 1.0), "were left as they are: /meshes/0/weights/2"), 1);
+    for (const char* pointer : {"/meshes/0/weights/2", "/meshes/0/weights/01"}) {
+        GltfBuilder builder = animated(pointer, {1, 1}, "SCALAR");
+        builder.json["meshes"][0]["weights"] = {0.0, 0.0};
+        EXPECT_EQ(warningsWith(at(builder, 1.0), std::string("were left as they are: ") + pointer), 1);
+    }
 }
 
 TEST(GltfAnimationPointer, KeysOfAnotherTypeOrWithoutEndAreRefused) {

@@ -122,5 +122,13 @@ TEST(TextureMean, OfATriangleThatIsAPointInThePictureIsThatTexel) {
     EXPECT_LT(glm::length(mean - at(picture, textureOf(0), glm::dvec2(uv))), 1e-6);
 }
 
+// Coordinates without a place among the texels are read as those of the picture's corner.
+TEST(TextureMean, OfCoordinatesFarOutIsThatOfATexel) {
+    Picture picture = pictureOf(2, 2, std::vector<glm::uvec4>(4));
+    picture.bytes[0] = 255;
+    const glm::vec2 far(1e30f);
+    EXPECT_GT(TextureMean(picture, textureOf(0)).over({far, far, far}).r, 0.1);
+}
+
 } // namespace
 } // namespace lavalight::test
