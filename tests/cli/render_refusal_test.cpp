@@ -108,11 +108,6 @@ TEST_F(RenderRefusal, SceneWhoseNodesRunInACircle) {
     expectSceneRefusal("scene.glb", "node");
 }
 
-TEST_F(RenderRefusal, PngThatIsTooLargeForAlphaIsRefusedBeforeTheRender) {
-    expectRefusal({"--size", "16384x16384", "--background", "transparent", "-o", "a.png"}, 1,
-                  "cannot write a PNG of 16384 x 16384 pixels with alpha");
-}
-
 TEST_F(RenderRefusal, SizesThatCannotBe) {
     for (const char* size : {"0x10", "10x0", "100000x10", "10x100000", "16385x1", "10", "10x", "x10",
                              "10x10x10", "-1x10", "a x b"})
