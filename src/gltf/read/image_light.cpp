@@ -87,7 +87,7 @@ Harmonics toRadiance(JsonView irradiance) {
     return radiance;
 }
 
-// At least 0.
+// The sum of the harmonics in a direction, at least 0.
 glm::vec3 evaluate(const Harmonics& coefficients, const glm::dvec3& d) {
     const std::array<double, 9> basis = {0.282095,
                                          0.488603 * d.y,

@@ -72,7 +72,7 @@ TEST(ZCurveTree, EndsWhereAVisitSaysSo) {
     EXPECT_EQ(visits, 7);
 }
 
-// Of all in one place the curve has one cell.
+// The curve has one cell where all middles are the same.
 TEST(ZCurveTree, HoldsTrianglesInOnePlaceAndOnALine) {
     const Triangle one{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
     EXPECT_EQ(foundIn(ZCurveTree(std::vector<Triangle>(50, one)), {glm::vec3(0.2f), glm::vec3(0.3f)}).size(),

@@ -145,5 +145,18 @@ TEST(GltfImageLight, LightBeyondAllBoundsIsLimitedAndFinite) {
         ASSERT_TRUE(std::isfinite(pixel.x) && std::isfinite(pixel.y) && pixel.y <= 1e15f);
 }
 
+// Two coefficients of l = 2, each of which is larger than a double once it is divided.
+TEST(GltfImageLight, CoefficientsBeyondAllBoundsAreLimitedAndFinite) {
+    GltfBuilder builder = lit({0xFF000010});
+    Json coefficients = Json::array();
+    for (size_t i = 0; i < 9; ++i)
+        coefficients.push_back({0.0, 0.0, 0.0});
+    coefficients[4] = {1.7e308, 0.0, 0.0};
+    coefficients[8] = {-1.7e308, 0.0, 0.0};
+    lightOf(builder)["irradianceCoefficients"] = coefficients;
+    for (const glm::vec3& pixel : builder.import().environmentMap.value().image.pixels)
+        ASSERT_TRUE(pixel.x >= 0.0f && pixel.x <= 1e15f);
+}
+
 } // namespace
 } // namespace lavalight::test

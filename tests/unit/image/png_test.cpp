@@ -23,23 +23,36 @@ struct FreeImage {
     void operator()(unsigned char* pixels) const { stbi_image_free(pixels); }
 };
 
+// What a decoder finds in a file.
+struct Decoded {
+    int width = 0;
+    int height = 0;
+    int channels = 0;
+    std::vector<unsigned char> bytes;
+};
+
+Decoded decode(const std::string& file) {
+    Decoded image;
+    const std::unique_ptr<unsigned char, FreeImage> pixels(
+        stbi_load_from_memory(reinterpret_cast<const stbi_uc*>(file.data()), static_cast<int>(file.size()),
+                              &image.width, &image.height, &image.channels, 0));
+    if (pixels)
+        image.bytes.assign(pixels.get(), pixels.get() + static_cast<ptrdiff_t>(image.width) * image.height *
+                                                            image.channels);
+    return image;
+}
+
 TEST(WritePng, PixelsComeBackInPlaceWithoutAlphaWhereAllIsOpaque) {
     const TemporaryFolder folder;
     const std::vector<uint32_t> written{0xff030201, 0xff000000, 0xffffffff,
                                         0xff0000ff, 0xff00ff00, 0xffff0000};
     writePng(folder / "image.png", 3, 2, written);
-    int width = 0;
-    int height = 0;
-    int channels = 0;
-    const std::unique_ptr<unsigned char, FreeImage> pixels(
-        stbi_load((folder / "image.png").c_str(), &width, &height, &channels, 0));
-    ASSERT_NE(pixels, nullptr);
-    EXPECT_EQ(width, 3);
-    EXPECT_EQ(height, 2);
-    ASSERT_EQ(channels, 3);
-    const std::vector<unsigned char> bytes(pixels.get(), pixels.get() + 18);
-    EXPECT_EQ(bytes, (std::vector<unsigned char>{1, 2, 3, 0, 0, 0, 255, 255, 255, //
-                                                 255, 0, 0, 0, 255, 0, 0, 0, 255}));
+    const Decoded image = decode(readFile(folder / "image.png"));
+    EXPECT_EQ(image.width, 3);
+    EXPECT_EQ(image.height, 2);
+    ASSERT_EQ(image.channels, 3);
+    EXPECT_EQ(image.bytes, (std::vector<unsigned char>{1, 2, 3, 0, 0, 0, 255, 255, 255, //
+                                                       255, 0, 0, 0, 255, 0, 0, 0, 255}));
     EXPECT_EQ(folder.count(), 1);
 }
 
@@ -47,16 +60,9 @@ TEST(WritePng, AlphaBelow255ComesBackAndSoDoTexts) {
     const std::vector<uint32_t> written{0x80030201, 0xff0000ff};
     const std::string file =
         encodePng(2, 1, written, {{"Software", "Lavalight"}, {"lavalight:exposure", "1.5"}});
-    int width = 0;
-    int height = 0;
-    int channels = 0;
-    const std::unique_ptr<unsigned char, FreeImage> pixels(
-        stbi_load_from_memory(reinterpret_cast<const stbi_uc*>(file.data()), static_cast<int>(file.size()),
-                              &width, &height, &channels, 0));
-    ASSERT_NE(pixels, nullptr);
-    ASSERT_EQ(channels, 4);
-    EXPECT_EQ(std::vector<unsigned char>(pixels.get(), pixels.get() + 8),
-              (std::vector<unsigned char>{1, 2, 3, 128, 255, 0, 0, 255}));
+    const Decoded image = decode(file);
+    ASSERT_EQ(image.channels, 4);
+    EXPECT_EQ(image.bytes, (std::vector<unsigned char>{1, 2, 3, 128, 255, 0, 0, 255}));
     // Length, type, keyword, 0 and text, and the CRC-32 that zlib's documentation and Python's zlib.crc32
     // give.
     const std::string chunk("\0\0\0\x12tEXtSoftware\0Lavalight", 4 + 4 + 18);
@@ -65,20 +71,7 @@ TEST(WritePng, AlphaBelow255ComesBackAndSoDoTexts) {
     EXPECT_NE(file.find(std::string("lavalight:exposure\0001.5", 22)), std::string::npos);
 }
 
-// What a decoder makes of the file, of 3 or 4 bytes a pixel.
-std::vector<unsigned char> decoded(const std::string& file, int channels) {
-    int width = 0;
-    int height = 0;
-    int own = 0;
-    const std::unique_ptr<unsigned char, FreeImage> pixels(
-        stbi_load_from_memory(reinterpret_cast<const stbi_uc*>(file.data()), static_cast<int>(file.size()),
-                              &width, &height, &own, 0));
-    if (!pixels || own != channels)
-        return {};
-    return {pixels.get(), pixels.get() + static_cast<ptrdiff_t>(width) * height * channels};
-}
-
-// Rows that suit each of the filters, and noise, of which there are several chunks.
+// The kinds suit each of the row filters; the last is noise, which takes several chunks.
 TEST(WritePng, PicturesOfAnyKindComeBackAndFlatOnesAreSmall) {
     constexpr uint32_t kSide = 1024;
     std::mt19937 random(1);
@@ -100,7 +93,9 @@ TEST(WritePng, PicturesOfAnyKindComeBackAndFlatOnesAreSmall) {
                     bytes.push_back(static_cast<unsigned char>(pixels[i] >> (8 * channel)));
             }
             const std::string file = encodePng(kSide, kSide, pixels);
-            EXPECT_TRUE(decoded(file, channels) == bytes) << channels << " channels";
+            const Decoded image = decode(file);
+            EXPECT_EQ(image.channels, channels);
+            EXPECT_TRUE(image.bytes == bytes) << channels << " channels";
             sizes.push_back(file.size());
         }
     for (size_t i = 0; i < 4; ++i)

@@ -92,7 +92,7 @@ TEST(TextureMean, OfManyTexelsIsCloseAndKeepsWhatIsNotBlack) {
     EXPECT_GT(TextureMean(picture, textureOf(0)).over(half).r, 0.0);
 }
 
-// Of one lit texel: small triangles beside it see black, others what their points see.
+// The picture has one lit texel. Small triangles beside it see black, and others see what their points do.
 TEST(TextureMean, OfAPictureThatIsAlmostBlackIsTheMeanOfThePoints) {
     constexpr uint32_t kSide = 4;
     Random random(2);
