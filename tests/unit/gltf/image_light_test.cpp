@@ -154,7 +154,8 @@ TEST(GltfImageLight, CoefficientsBeyondAllBoundsAreLimitedAndFinite) {
     coefficients[4] = {1.7e308, 0.0, 0.0};
     coefficients[8] = {-1.7e308, 0.0, 0.0};
     lightOf(builder)["irradianceCoefficients"] = coefficients;
-    for (const glm::vec3& pixel : builder.import().environmentMap.value().image.pixels)
+    const Scene scene = builder.import();
+    for (const glm::vec3& pixel : scene.environmentMap.value().image.pixels)
         ASSERT_TRUE(pixel.x >= 0.0f && pixel.x <= 1e15f);
 }
 
