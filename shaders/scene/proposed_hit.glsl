@@ -1,6 +1,7 @@
 // Triangles that another program's traversal proposes: Embree's on the host, a graphics card's in kernels. Our own test
 // decides where a ray meets them, and which comes first, so that all accelerators find the same. They differ only where a
 // ray meets an edge so exactly that the two tests differ about its side.
+#include "lib/math/ray_direction.glsl"
 #include "lib/math/ray_triangle.glsl"
 #include "scene/alpha.glsl"
 #include "scene/nearest_hit.glsl"
@@ -42,6 +43,14 @@ TriangleHit whereMet(ShearedRay ray, TriangleRecord triangle, vec2 proposed) {
     return at;
 }
 
+// Whether a ray takes a triangle where it meets it, and is not let through.
+bool takesMet(TriangleHit at, TriangleRecord triangle, RayFilter ignored) {
+    if (passesThrough(ignored, triangle, at.front))
+        return false;
+    const vec3 b = vec3(1.0 - at.barycentrics.x - at.barycentrics.y, at.barycentrics);
+    return !sceneHas(kFeatureAlpha) || (triangle.material & kAlphaBit) == 0u || !letsThrough(triangle, b, ignored.alphaSeed);
+}
+
 // Takes a proposed triangle, whose record has the number of its surface, for the nearest; false: it is not, or lets the
 // ray through.
 bool takesProposed(ShearedRay ray, uint record, vec2 proposed, RayFilter ignored, inout NearestHit nearest) {
@@ -51,10 +60,7 @@ bool takesProposed(ShearedRay ray, uint record, vec2 proposed, RayFilter ignored
     const TriangleRecord triangle = loadTriangle(record);
     const TriangleHit at = whereMet(ray, triangle, proposed);
     if (!(at.t > 0.0) || !comesFirst(at.t, triangle.surface, nearest.hit.t, nearest.surface) ||
-        passesThrough(ignored, triangle, at.front))
-        return false;
-    const vec3 b = vec3(1.0 - at.barycentrics.x - at.barycentrics.y, at.barycentrics);
-    if (sceneHas(kFeatureAlpha) && (triangle.material & kAlphaBit) != 0u && letsThrough(triangle, b, ignored.alphaSeed))
+        !takesMet(at, triangle, ignored))
         return false;
     nearest = NearestHit(Hit(at.t, record, at.barycentrics), triangle.surface);
     return true;

@@ -3,12 +3,11 @@
 
 #include <cassert>
 #include <chrono>
-#include <cmath>
 #include <new>
 #include <numeric>
 
 #include "accel/build_tree.h"
-#include "accel/embree_handles.h"
+#include "accel/embree_input.h"
 #include "accel/presplit.h"
 #include "base/error.h"
 #include "base/log.h"
@@ -51,42 +50,13 @@ void* createLeaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* pri
     return leaf;
 }
 
-// Throws Error for a coordinate out of range.
-Bounds boundsOf(std::span<const Triangle> triangles) {
-    BuildBox box;
-    for (size_t id = 0; id < triangles.size(); ++id) {
-        for (const glm::vec3& v : {triangles[id].v0, triangles[id].v1, triangles[id].v2}) {
-            const bool inRange = glm::all(glm::lessThanEqual(glm::abs(v), glm::vec3(kMaxCoordinate)));
-            if (!inRange) // false for NaN
-                throw Error(
-                    fmt::format("cannot build the BVH: triangle {} has the vertex ({}, {}, {}); coordinates "
-                                "must be finite and at most {}: scale the scene down or repair the mesh",
-                                id, v.x, v.y, v.z, kMaxCoordinate));
-        }
-        box.extend(triangleBox(triangles[id]));
-    }
-    return triangles.empty() ? Bounds{} : Bounds{box.lower, box.upper};
-}
-
-// Embree sees the scene scaled by a power of two to coordinates below 1, which keeps its areas and costs
-// finite and normal at any scale of the scene.
-std::vector<RTCBuildPrimitive> toPrimitives(std::span<const Fragment> fragments, const Bounds& bounds) {
-    const glm::vec3 reach = glm::max(glm::abs(bounds.lower), glm::abs(bounds.upper));
-    const float largest = glm::max(glm::max(reach.x, reach.y), reach.z);
-    const double scale = largest > 0.0f ? std::ldexp(1.0, -1 - std::ilogb(largest)) : 1.0;
-    std::vector<RTCBuildPrimitive> primitives;
-    primitives.reserve(fragments.size());
-    for (uint32_t id = 0; id < fragments.size(); ++id) {
-        const glm::vec3 lower(scale * glm::dvec3(fragments[id].box.lower));
-        const glm::vec3 upper(scale * glm::dvec3(fragments[id].box.upper));
-        primitives.push_back({lower.x, lower.y, lower.z, 0, upper.x, upper.y, upper.z, id});
-    }
-    return primitives;
-}
-
 // The tree lives as long as `bvh`. Null where Embree cannot keep to kMaxBinaryDepth.
 const BuildNode* buildEmbreeTree(BuildContext& context, const Bounds& bounds, RTCBVH bvh) {
-    std::vector<RTCBuildPrimitive> primitives = toPrimitives(context.fragments, bounds);
+    const BuildScale scale(bounds);
+    std::vector<RTCBuildPrimitive> primitives;
+    primitives.reserve(context.fragments.size());
+    for (uint32_t id = 0; id < context.fragments.size(); ++id)
+        primitives.push_back(scale.primitive(context.fragments[id].box, id));
     RTCBuildArguments arguments = rtcDefaultBuildArguments();
     // Embree's best without splits, which presplit() has made.
     arguments.buildQuality = RTC_BUILD_QUALITY_MEDIUM;
@@ -143,7 +113,7 @@ void requireBvhFits(uint64_t leafTriangles, uint64_t nodes) {
 Bvh buildBvh(std::span<const Triangle> triangles, const BvhConfig& config) {
     const auto start = std::chrono::steady_clock::now();
     requireBvhFits(triangles.size(), 0);
-    const Bounds bounds = boundsOf(triangles);
+    const Bounds bounds = boundsToBuildIn(triangles);
     Bvh bvh = triangles.empty() ? flattenTree(nullptr) : buildNonEmpty(triangles, bounds, config);
     bvh.bounds = bounds;
     bvh.buildSeconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

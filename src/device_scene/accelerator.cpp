@@ -46,13 +46,18 @@ std::vector<uint32_t> AcceleratorData::recordsOfTriangles(size_t triangles) cons
 }
 
 std::string AcceleratorData::name() const {
+    if (kind == AcceleratorKind::bvh16)
+        return "bvh16";
     return embree ? EmbreeTriangles::identity() : std::string(kernelAccelerator(kind));
 }
 
-AcceleratorData buildAccelerator(std::span<const Triangle> triangles, AcceleratorKind kind) {
+AcceleratorData buildAccelerator(std::span<const Triangle> triangles, std::span<const uint32_t> materials,
+                                 AcceleratorKind kind) {
     AcceleratorData data{kind};
     if (kind == AcceleratorKind::bvh8)
         data.bvh = buildBvh(triangles);
+    if (kind == AcceleratorKind::bvh16)
+        data.bvh16 = std::make_shared<const Bvh16>(buildBvh16(triangles, materials));
     if (kind == AcceleratorKind::embree)
         data.embree =
             std::make_shared<const EmbreeTriangles>(triangles, RTC_BUILD_QUALITY_HIGH, kTracedByHost);
@@ -61,8 +66,8 @@ AcceleratorData buildAccelerator(std::span<const Triangle> triangles, Accelerato
 
 Accelerator::Accelerator(gpu::Device& device, const AcceleratorData& data,
                          std::span<const TriangleRecord> triangles)
-    : kind_(data.kind), bvhSeconds_(data.bvh.buildSeconds), embree_(data.embree),
-      nodes_(uploadTexels(device, "BVH nodes", data.bvh.nodes)),
+    : kind_(data.kind), bvhSeconds_(data.bvh16 ? data.bvh16->buildSeconds : data.bvh.buildSeconds),
+      bvh16_(data.bvh16), embree_(data.embree), nodes_(uploadTexels(device, "BVH nodes", data.bvh.nodes)),
       triangles_(uploadTexels(device, "triangles", inOrderOf(data, triangles), gpu::BufferUse::corners)),
       extent_(uploadTexels(device, "extent of the structure",
                            std::vector{glm::vec4(largestCoordinate(triangles), 0.0f, 0.0f, 0.0f)})) {
@@ -76,8 +81,8 @@ double Accelerator::buildSeconds() const {
 }
 
 uint64_t Accelerator::bytes() const {
-    return nodes_.bytes() + triangles_.bytes() + (embree_ ? embree_->bytes() : 0) +
-           (structure_ ? structure_->bytes() : 0);
+    return nodes_.bytes() + triangles_.bytes() + (bvh16_ ? bvh16_->bytes() : 0) +
+           (embree_ ? embree_->bytes() : 0) + (structure_ ? structure_->bytes() : 0);
 }
 
 void Accelerator::addTo(gpu::ResourceTable& resources) const {

@@ -1,6 +1,6 @@
 // The accelerator of a scene, which answers the two functions of shaders/scene/intersect.glsl: the only place
 // on the host that knows what it is. Kernels have a BVH or the device's own structure, whose other halves are
-// folders of shaders/scene/; the host (src/hosted) has Embree.
+// folders of shaders/scene/; the host (src/hosted) has a BVH of its own or Embree.
 #pragma once
 
 #include <cstdint>
@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "accel/bvh.h"
+#include "accel/bvh16.h"
 #include "accel/embree_triangles.h"
 #include "gpu/buffer.h"
 #include "gpu/kernel.h"
@@ -23,17 +24,23 @@ namespace lavalight {
 
 enum class AcceleratorKind {
     bvh8,    // traversed by kernels
-    embree,  // traversed by the host
+    bvh16,   // traversed by the host
+    embree,  // the same
     rayQuery // built by the device, and traversed where kernels ask it (VK_KHR_ray_query)
 };
 
-// The name that its kernels have (kernels/accelerator_name.h). Kernels trace nothing where Embree does.
+[[nodiscard]] constexpr bool isOnHost(AcceleratorKind kind) {
+    return kind == AcceleratorKind::bvh16 || kind == AcceleratorKind::embree;
+}
+
+// The name that its kernels have (kernels/accelerator_name.h). Kernels trace nothing where the host does.
 [[nodiscard]] std::string_view kernelAccelerator(AcceleratorKind kind);
 
 // An accelerator before it is uploaded. Which builder made the tree decides no bit of a film.
 struct AcceleratorData {
     AcceleratorKind kind = AcceleratorKind::bvh8;
     Bvh bvh{};                                       // of AcceleratorKind::bvh8
+    std::shared_ptr<const Bvh16> bvh16{};            // of AcceleratorKind::bvh16
     std::shared_ptr<const EmbreeTriangles> embree{}; // of AcceleratorKind::embree
 
     // Triangle of each record, in the order in which kernels number records; triangles may repeat. But for
@@ -45,9 +52,10 @@ struct AcceleratorData {
     [[nodiscard]] std::string name() const;
 };
 
-// No device is needed. Throws Error where the triangles do not fit.
+// No device is needed. `materials` has the material word of each triangle (shared/scene.h). Throws Error
+// where the triangles do not fit.
 [[nodiscard]] AcceleratorData buildAccelerator(std::span<const Triangle> triangles,
-                                               AcceleratorKind kind = AcceleratorKind::bvh8);
+                                               std::span<const uint32_t> materials, AcceleratorKind kind);
 
 class Accelerator {
   public:
@@ -59,7 +67,8 @@ class Accelerator {
     void addTo(gpu::ResourceTable& resources) const;
 
     [[nodiscard]] AcceleratorKind kind() const { return kind_; }
-    // Null but for AcceleratorKind::embree.
+    // Each is null but for its own kind.
+    [[nodiscard]] const Bvh16* bvh16() const { return bvh16_.get(); }
     [[nodiscard]] const EmbreeTriangles* embree() const { return embree_.get(); }
     [[nodiscard]] double buildSeconds() const;
     // On the device, and on the host if it is the host that traces.
@@ -68,6 +77,7 @@ class Accelerator {
   private:
     AcceleratorKind kind_;
     double bvhSeconds_;
+    std::shared_ptr<const Bvh16> bvh16_;
     std::shared_ptr<const EmbreeTriangles> embree_;
     gpu::Buffer nodes_;
     gpu::Buffer triangles_;

@@ -193,9 +193,9 @@ SceneData packScene(const Scene& scene, const Lights& lights, AcceleratorKind ki
     SceneData data;
     data.features = sceneFeatures(scene, lights);
     packSurfaceDetail(scene, data);
-    data.accelerator = buildAccelerator(triangles, kind);
     std::vector<uint32_t> words = materialWords(scene);
     keepCrowdedDown(scene, triangles, words);
+    data.accelerator = buildAccelerator(triangles, words, kind);
     data.triangles = packTriangles(triangles, lights.emitters, words);
     data.normals = packNormals(scene);
     data.materials = packMaterials(scene, data.textures.firstRecords);

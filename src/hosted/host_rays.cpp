@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <optional>
 #include <span>
 
 #define GLM_ENABLE_EXPERIMENTAL
 #include <glm/gtc/packing.hpp>
 #include <glm/gtx/vec_swizzle.hpp>
 
+#include "hosted/bvh16_rays.h"
 #include "shared/scene.h"
 #include "shared/texture.h"
 #include "shared/trace.h"
@@ -38,6 +40,7 @@ struct ShaderRays {
     SceneFeatures features = 0;
     [[nodiscard]] bool has(SceneFeatures feature) const { return (features & feature) != 0; }
 
+    const Bvh16* bvh16 = nullptr; // or else:
     RTCScene embree = nullptr;
 
 #include "shader_rays_members.h"
@@ -55,6 +58,36 @@ struct Lane {
     ShaderRays::ShearedRay ray;
     ShaderRays::NearestHit nearest; // so far
 };
+
+// What our own tree asks.
+struct OwnQuery {
+    ShaderRays* shader;
+    const ShaderRays::RayFilter* ignored;
+};
+
+bool takes(void* taker, const Bvh16Hit& hit) {
+    const OwnQuery& query = *static_cast<const OwnQuery*>(taker);
+    return query.shader->takesMet({hit.t, hit.barycentrics, hit.front},
+                                  query.shader->loadTriangle(hit.triangle), *query.ignored);
+}
+
+std::optional<Bvh16Hit> findInOwnTree(ShaderRays& shader, vec3 origin, vec3 direction, float tMax,
+                                      const ShaderRays::RayFilter& ignored, bool isAny) {
+    direction = shader.withoutZeros(direction);
+    const ShaderRays::ShearedRay sheared = shader.shearRay(origin, direction);
+    OwnQuery query{&shader, &ignored};
+    const Bvh16Ray ray{.origin = origin,
+                       .direction = direction,
+                       .shear = sheared.shear,
+                       .mainAxis = sheared.xMain   ? 0
+                                   : sheared.yMain ? 1
+                                                   : 2,
+                       .end = tMax,
+                       .firstIgnored = ignored.firstSurface.primitive,
+                       .secondIgnored = ignored.secondSurface.primitive,
+                       .cullsBackFaces = ignored.cullBackFaces};
+    return traverse(*shader.bvh16, ray, {takes, &query}, isAny);
+}
 
 // One ray or several, about which Embree asks for every triangle that it finds.
 struct Query {
@@ -102,7 +135,7 @@ RTCRay toEmbree(vec3 origin, vec3 direction, float end) {
 
 Lane makeLane(ShaderRays& shader, vec3 origin, vec3 direction, float tMax,
               const ShaderRays::RayFilter& ignored) {
-    return {ignored, shader.shearRay(origin, direction), shader.nothingBefore(tMax)};
+    return {ignored, shader.shearRay(origin, shader.withoutZeros(direction)), shader.nothingBefore(tMax)};
 }
 
 enum class Likeness { none, coherent };
@@ -165,11 +198,16 @@ void occlude(RTCScene scene, Query& query, RTCRay& ray) {
 } // namespace
 
 bool ShaderRays::intersectClosest(vec3 origin, vec3 direction, float tMax, RayFilter ignored, Hit& hit) {
-    Lane lane = makeLane(*this, origin, direction, tMax, ignored);
-    if (!isTraceable(origin, direction)) {
-        hit = lane.nearest.hit;
-        return false;
+    hit = nothingBefore(tMax).hit;
+    if (bvh16 != nullptr) {
+        const std::optional<Bvh16Hit> met = findInOwnTree(*this, origin, direction, tMax, ignored, false);
+        if (met)
+            hit = {met->t, met->triangle, met->barycentrics};
+        return met.has_value();
     }
+    if (!isTraceable(origin, direction))
+        return false;
+    Lane lane = makeLane(*this, origin, direction, tMax, ignored);
     Query query = makeQuery(*this, &lane, Likeness::none);
     RTCRayHit ray;
     ray.ray = toEmbree(origin, direction, withMargin(tMax));
@@ -180,6 +218,8 @@ bool ShaderRays::intersectClosest(vec3 origin, vec3 direction, float tMax, RayFi
 }
 
 bool ShaderRays::intersectAny(vec3 origin, vec3 direction, float tMax, RayFilter ignored) {
+    if (bvh16 != nullptr)
+        return findInOwnTree(*this, origin, direction, tMax, ignored, true).has_value();
     if (!isTraceable(origin, direction))
         return false;
     Lane lane = makeLane(*this, origin, direction, tMax, ignored);
@@ -227,7 +267,8 @@ void ShaderRays::traceTogether(uint32_t bounce, std::span<const uint32_t> slots,
 } // namespace glsl
 
 HostScene hostScene(const GpuScene& scene, SceneFeatures features) {
-    assert(scene.accelerator().embree() != nullptr);
+    const Accelerator& accelerator = scene.accelerator();
+    assert(isOnHost(accelerator.kind()));
     gpu::ResourceTable buffers;
     scene.addTo(buffers);
     const auto texels = [&](const char* name) {
@@ -235,9 +276,11 @@ HostScene hostScene(const GpuScene& scene, SceneFeatures features) {
         assert(mapped.data() != nullptr);
         return mapped;
     };
-    return {texels("triangles"),      texels("triangleNormals"),    texels("materials"),
-            texels("pictures"),       texels("textures"),           texels("triangleUvs"),
-            texels("triangleColors"), scene.accelerator().embree(), features};
+    return {texels("triangles"),      texels("triangleNormals"),
+            texels("materials"),      texels("pictures"),
+            texels("textures"),       texels("triangleUvs"),
+            texels("triangleColors"), accelerator.bvh16(),
+            accelerator.embree(),     features};
 }
 
 bool tracesAsHost(const KernelSource& source) {
@@ -254,7 +297,8 @@ HostRays::HostRays(const HostScene& scene, const FrameParameters& frame, const W
     : members_(std::make_unique<Members>()) {
     glsl::ShaderRays& shader = members_->shader;
     shader.features = scene.features;
-    shader.embree = scene.tree->scene();
+    shader.bvh16 = scene.bvh16;
+    shader.embree = scene.embree != nullptr ? scene.embree->scene() : nullptr;
     shader.frame = frame;
     shader.range = range;
     shader.triangles = {scene.triangles.data()};
@@ -276,7 +320,7 @@ void HostRays::trace(uint32_t bounce, std::span<const uint32_t> slots, std::span
                      std::span<Hit> hits) {
     glsl::ShaderRays& shader = members_->shader;
     assert(rays.size() <= kRaysTogether && slots.size() == rays.size() && hits.size() == rays.size());
-    if (!shader.has(kFeatureSolids)) {
+    if (shader.bvh16 == nullptr && !shader.has(kFeatureSolids)) {
         shader.traceTogether(bounce, slots, rays, hits);
         return;
     }

@@ -1,5 +1,5 @@
 // Rays of paths traced by the host: the functions of shaders/scene/path_rays.glsl, compiled for the host,
-// with Embree in the place of the kernels' accelerator.
+// with a tree of the host's own or Embree in the place of the kernels' accelerator.
 #pragma once
 
 #include <array>
@@ -10,6 +10,7 @@
 
 #include <glm/glm.hpp>
 
+#include "accel/bvh16.h"
 #include "accel/embree_triangles.h"
 #include "device_scene/gpu_scene.h"
 #include "gpu/kernel.h"
@@ -25,11 +26,13 @@ struct HostScene {
     // The buffers that kernels know by these names.
     std::span<const glm::uvec4> triangles, triangleNormals, materials, pictures, textures, triangleUvs,
         triangleColors;
-    const EmbreeTriangles* tree; // over the records of `triangles`
-    SceneFeatures features;      // the camera's too
+    // Over the records of `triangles`; one of them is null.
+    const Bvh16* bvh16;
+    const EmbreeTriangles* embree;
+    SceneFeatures features; // the camera's too
 };
 
-// `scene` must outlive the result, and its accelerator be Embree's.
+// `scene` must outlive the result, and its accelerator be on the host.
 [[nodiscard]] HostScene hostScene(const GpuScene& scene, SceneFeatures features);
 
 // Kernels with the code that the host runs. Schedule::hosted does not run them.
@@ -41,7 +44,7 @@ inline constexpr std::array<std::string_view, 3> kTracingKernels{"extend", "conn
 
 // The answer for a ray depends on that ray alone, also where it is traced together with others: our own test
 // decides where triangles are met, and at equal t the one of the lowest number is hit, in whatever order
-// Embree finds them. For one thread.
+// they are found. For one thread.
 class HostRays {
   public:
     static constexpr size_t kRaysTogether = 8;
@@ -51,8 +54,8 @@ class HostRays {
 
     // trace() and isOccluded() of shaders/scene/path_rays.glsl. The surface of a hit is its record.
     [[nodiscard]] Hit trace(uint32_t slot, uint32_t bounce, Ray& ray);
-    // trace() of each of at most kRaysTogether rays. It is faster where they are much alike, as neighbouring
-    // camera rays are.
+    // trace() of each of at most kRaysTogether rays. Embree is faster where they are much alike, as
+    // neighbouring camera rays are; the host's own tree takes them one by one.
     void trace(uint32_t bounce, std::span<const uint32_t> slots, std::span<Ray> rays, std::span<Hit> hits);
     [[nodiscard]] bool isOccluded(const ShadowRay& ray, uint32_t slot, uint32_t bounce);
 

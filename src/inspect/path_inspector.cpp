@@ -14,8 +14,8 @@ namespace {
 
 // The kernel that follows a path with the accelerator.
 std::string kernelFor(AcceleratorKind accelerator) {
-    return accelerator == AcceleratorKind::embree ? "hosted/trace_path"
-                                                  : textOf({"trace_path", kernelAccelerator(accelerator)});
+    return isOnHost(accelerator) ? "hosted/trace_path"
+                                 : textOf({"trace_path", kernelAccelerator(accelerator)});
 }
 
 } // namespace
@@ -112,7 +112,7 @@ TracedPath PathInspector::trace(const Renderer& renderer, const glm::uvec2& pixe
     range.pixelCount = range.sampleCount = 1;
     range.firstSample = sample;
     do {
-        if (accelerator_ == AcceleratorKind::embree) {
+        if (isOnHost(accelerator_)) {
             result.vertices.push_back(traceByHost(renderer, state, range));
         } else {
             state.run(range);

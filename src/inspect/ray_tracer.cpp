@@ -39,7 +39,7 @@ TracedHit tracedHit(const Hit& hit) {
 RayTracer::RayTracer(gpu::Device& device, const GpuScene& scene, bool countsVisits)
     : device_(&device), scene_(&scene),
       visits_(device, "visit counts", sizeof(VisitCounts), gpu::BufferUse::readback) {
-    if (scene.accelerator().embree() != nullptr)
+    if (isOnHost(scene.accelerator().kind()))
         return;
     closest_ = makeKernel(device, "trace_closest", scene.accelerator().kind(), countsVisits);
     any_ = makeKernel(device, "trace_any", scene.accelerator().kind(), countsVisits);

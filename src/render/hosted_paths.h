@@ -12,7 +12,7 @@ namespace lavalight {
 
 class HostedPaths : public WaveRenderer {
   public:
-    // The host must be able to read the scene's buffers, and its accelerator must be Embree's.
+    // The host must be able to read the scene's buffers, and its accelerator must be on the host.
     HostedPaths(gpu::Device& device, const WaveInputs& inputs);
 
     void renderWave(const Transport& transport, size_t band, WaveRange range) override;

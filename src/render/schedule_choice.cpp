@@ -27,7 +27,7 @@ constexpr uint32_t kMostRecords = (1u << 27) / (kPlanesOut * sizeof(glm::uvec4))
 constexpr Schedule kInsteadOfHosted = Schedule::fused;
 
 bool letsHostTrace(RayAccelerator accelerator) {
-    return accelerator == RayAccelerator::automatic || accelerator == RayAccelerator::embree;
+    return accelerator == RayAccelerator::automatic || isOnHost(accelerator);
 }
 
 void requireRayQueries(RayAccelerator accelerator, const gpu::DeviceDescription& device) {
@@ -53,7 +53,7 @@ RenderSettings resolveSchedule(RenderSettings settings, const gpu::DeviceDescrip
     requireRayQueries(accelerator, device);
     if (schedule == Schedule::hosted)
         requireHostedMemory("schedule", nameOf(schedule), "--schedule auto", device);
-    if (accelerator == RayAccelerator::embree)
+    if (isOnHost(accelerator))
         requireHostedMemory("accelerator", nameOf(accelerator), "--accelerator auto", device);
     if (schedule == Schedule::automatic)
         schedule = device.sharesMemory && letsHostTrace(accelerator) ? Schedule::hosted
@@ -65,7 +65,7 @@ RenderSettings resolveSchedule(RenderSettings settings, const gpu::DeviceDescrip
         accelerator = RayAccelerator::automatic;
     }
     if (accelerator == RayAccelerator::automatic)
-        accelerator = schedule == Schedule::hosted         ? RayAccelerator::embree
+        accelerator = schedule == Schedule::hosted         ? RayAccelerator::bvh16
                       : device.tracesRays && !device.isCpu ? RayAccelerator::rayQuery
                                                            : RayAccelerator::bvh8;
     if (settings.work.waveSize == 0)
@@ -103,6 +103,8 @@ std::vector<std::string> decisiveKernels(const RenderSettings& settings) {
 
 AcceleratorKind acceleratorOf(const RenderSettings& settings) {
     switch (settings.work.accelerator) {
+    case RayAccelerator::bvh16:
+        return AcceleratorKind::bvh16;
     case RayAccelerator::embree:
         return AcceleratorKind::embree;
     case RayAccelerator::rayQuery:

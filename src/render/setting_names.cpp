@@ -9,8 +9,9 @@ constexpr std::array<SettingName<Schedule>, 4> kSchedules{{{"auto", Schedule::au
                                                            {"fused", Schedule::fused},
                                                            {"wavefront", Schedule::wavefront},
                                                            {"hosted", Schedule::hosted}}};
-constexpr std::array<SettingName<RayAccelerator>, 4> kAccelerators{{{"auto", RayAccelerator::automatic},
+constexpr std::array<SettingName<RayAccelerator>, 5> kAccelerators{{{"auto", RayAccelerator::automatic},
                                                                     {"bvh8", RayAccelerator::bvh8},
+                                                                    {"bvh16", RayAccelerator::bvh16},
                                                                     {"embree", RayAccelerator::embree},
                                                                     {"ray-query", RayAccelerator::rayQuery}}};
 constexpr std::array<SettingName<ToneCurve>, 4> kToneCurves{{{"neutral", ToneCurve::neutral},

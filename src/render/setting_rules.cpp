@@ -27,11 +27,11 @@ void requireAgreement(Schedule schedule, RayAccelerator accelerator) {
     if (schedule == Schedule::automatic || accelerator == RayAccelerator::automatic)
         return;
     const bool isHosted = schedule == Schedule::hosted;
-    if ((accelerator == RayAccelerator::embree) == isHosted)
+    if (isOnHost(accelerator) == isHosted)
         return;
     throw UsageError(fmt::format("cannot use the accelerator {} with the schedule {}: {}; try --schedule {}",
                                  nameOf(accelerator), nameOf(schedule),
-                                 isHosted ? "Embree traces its rays" : "kernels trace its rays",
+                                 isHosted ? "the host traces its rays" : "kernels trace its rays",
                                  nameOf(isHosted ? Schedule::fused : Schedule::hosted)));
 }
 

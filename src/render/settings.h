@@ -31,9 +31,15 @@ enum class Schedule {
 enum class RayAccelerator {
     automatic, // by the schedule and the device
     bvh8,      // our own tree, traversed by kernels
-    embree,    // Embree's tree, traversed by the host: with the schedule hosted
+    bvh16,     // our own tree, traversed by the host: with the schedule hosted
+    embree,    // Embree's tree, the same
     rayQuery   // the device's own tree and traversal (VK_KHR_ray_query), asked by kernels
 };
+
+// Whether the host traverses it, and kernels trace nothing.
+[[nodiscard]] constexpr bool isOnHost(RayAccelerator accelerator) {
+    return accelerator == RayAccelerator::bvh16 || accelerator == RayAccelerator::embree;
+}
 
 // The image, and which samples of each pixel are taken, at most StopRule::samples of them.
 struct ImageSettings {

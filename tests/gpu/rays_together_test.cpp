@@ -214,6 +214,24 @@ size_t differences(const std::vector<Hit>& a, const std::vector<Hit>& b) {
     return count;
 }
 
+// The host's own tree asks about triangles with alpha and about backs, Embree about every triangle.
+TEST_F(RaysTogether, ThroughAlphaAndCulledFacesFindTheSameInBothTrees) {
+    constexpr size_t kRays = 100'000;
+    const Scene scene = makeShells();
+    const Lights lights = collectLights(scene, glm::vec3(0.0f), LightSelection::power);
+    const GpuScene ofEmbree = upload(scene);
+    const GpuScene ofHost(device(), packScene(scene, lights, AcceleratorKind::bvh16));
+    constexpr SceneFeatures kFeatures = kFeatureAlpha | kFeatureVertexColors;
+    const std::vector<Ray> camera = makeCameraRays(scene.cameras.front(), kRays, 1);
+    std::vector<SlotAndRay> rays;
+    for (uint32_t slot = 0; slot < camera.size(); ++slot)
+        rays.push_back({slot, camera[slot]});
+    for (const uint32_t bounce : {0u, 1u})
+        EXPECT_LE(differences(SlotTracer(hostScene(ofEmbree, kFeatures), 1, kRays).alone(bounce, rays),
+                              SlotTracer(hostScene(ofHost, kFeatures), 1, kRays).alone(bounce, rays)),
+                  2u);
+}
+
 // Where chance, alpha and culling decide what a ray meets.
 TEST_F(RaysTogether, ThroughAlphaAndCulledFacesFindTheSame) {
     constexpr size_t kRays = 100'000;

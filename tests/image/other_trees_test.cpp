@@ -12,6 +12,7 @@
 #include "render/film.h"
 #include "render/renderer.h"
 #include "render/schedule_choice.h"
+#include "render/setting_names.h"
 #include "support/patched_kernel.h"
 #include "support/render_scene.h"
 #include "support/scene_builder.h"
@@ -131,15 +132,17 @@ TEST_F(OtherTrees, GiveTheSameFilm) {
     }
 }
 
-// The host finds the same triangles by Embree.
-TEST_F(OtherTrees, EmbreesAmongThemGiveTheSamePicture) {
+TEST_F(OtherTrees, TheHostsAmongThemGiveTheSamePicture) {
     if (!device().description().sharesMemory)
         GTEST_SKIP() << "the host does not reach the device's memory";
     RenderSettings settings = imageSettings(kSize, kSize, 16);
     settings.work.schedule = Schedule::fused;
     const Rendering kernels = renderScene(device(), scene_, settings).rendering;
-    settings.work.schedule = Schedule::hosted;
-    EXPECT_LE(shareThatDiffers(kernels, renderScene(device(), scene_, settings).rendering), 0.01);
+    for (const RayAccelerator accelerator : {RayAccelerator::bvh16, RayAccelerator::embree}) {
+        settings.work = {.schedule = Schedule::hosted, .accelerator = accelerator};
+        EXPECT_LE(shareThatDiffers(kernels, renderScene(device(), scene_, settings).rendering), 0.01)
+            << nameOf(accelerator);
+    }
 }
 
 TEST_F(OtherTrees, TheDevicesAmongThemGiveTheSamePicture) {
@@ -161,17 +164,20 @@ TEST_F(OtherTrees, TheDevicesFindLargeTrianglesThatCoincide) {
     EXPECT_LE(shareThatRayQueriesChange(builder.build(), Schedule::fused), 0.001);
 }
 
-// The host traces camera rays together: waves put other rays beside each, here where alpha, back faces and
+// Embree traces camera rays together: waves put other rays beside each, here where alpha, back faces and
 // coincident surfaces answer for each ray by itself.
 TEST_F(OtherTrees, WavesOfTheHostGiveTheSameFilm) {
     if (!device().description().sharesMemory)
         GTEST_SKIP() << "the host does not reach the device's memory";
     RenderSettings settings = imageSettings(kSize, kSize, 3);
-    settings.work.schedule = Schedule::hosted;
-    const std::vector<uint32_t> film = renderScene(device(), scene_, settings).filmWords;
-    for (const uint32_t waveSize : {65u, 1001u}) {
-        settings.work.waveSize = waveSize;
-        EXPECT_EQ(renderScene(device(), scene_, settings).filmWords, film) << waveSize;
+    for (const RayAccelerator accelerator : {RayAccelerator::bvh16, RayAccelerator::embree}) {
+        settings.work = {.schedule = Schedule::hosted, .accelerator = accelerator};
+        const std::vector<uint32_t> film = renderScene(device(), scene_, settings).filmWords;
+        for (const uint32_t waveSize : {65u, 1001u}) {
+            settings.work.waveSize = waveSize;
+            EXPECT_EQ(renderScene(device(), scene_, settings).filmWords, film)
+                << nameOf(accelerator) << " " << waveSize;
+        }
     }
 }
 

@@ -37,7 +37,7 @@ class Phases : public DeviceTest {
         const EstimatorKernels kernels(device(), kernelVariants(phases, schedule, classes),
                                        settings_.estimator, features, filmPlanes(settings_), embeddedKernel);
         const AcceleratorKind accelerator =
-            schedule == Schedule::hosted ? AcceleratorKind::embree : AcceleratorKind::bvh8;
+            schedule == Schedule::hosted ? AcceleratorKind::bvh16 : AcceleratorKind::bvh8;
         const GpuScene gpuScene(device(), packScene(scene_, lights, accelerator));
         FrameParameters frame = makeFrame(scene_, camera, settings_);
         setLights(frame, lights);

@@ -4,6 +4,7 @@
 #ifndef LAVALIGHT_RAY_BOX_GLSL
 #define LAVALIGHT_RAY_BOX_GLSL
 
+#include "lib/math/ray_direction.glsl"
 #include "shared/bvh.h"
 
 // Tolerance of the slab test, relative: 16 half units in the last place of a float (2^-24 each).
@@ -17,22 +18,12 @@
 // it rays leak between neighbouring boxes where triangles share an edge in the plane between them.
 const float kSlabTolerance = 16.0 / 16777216.0;
 
-// Smallest component of a direction: keeps quotients finite with coordinates up to kMaxCoordinate. All tests of a ray use
-// the same, so changed, direction.
-const float kSmallestDirection = 1e-18;
-
 struct SlabRay {
     vec3 origin;
     vec3 inverse;   // 1 / direction
     vec3 tolerance; // tolerance of a plane's t, per unit of distance from the ray's origin to the box
     bvec3 backwards; // direction is negative
 };
-
-vec3 withoutZeros(vec3 direction) {
-    uvec3 sign = floatBitsToUint(direction) & 0x80000000u;
-    vec3 smallest = uintBitsToFloat(floatBitsToUint(vec3(kSmallestDirection)) | sign);
-    return mix(direction, smallest, lessThan(abs(direction), vec3(kSmallestDirection)));
-}
 
 // `direction` comes from withoutZeros.
 SlabRay slabRay(vec3 origin, vec3 direction) {

@@ -81,8 +81,8 @@ void RenderOptions::declareDevice(CLI::App& parser) {
              "One kernel for whole paths, one for each step, or rays traced by the host; auto: by device");
     addNamed(
         parser, "--accelerator", settings_.work.accelerator,
-        "What finds the triangles that rays meet: a tree that kernels traverse, Embree on the host, or the "
-        "device's own units for rays; auto: by schedule and device");
+        "What finds the triangles that rays meet: bvh8, a tree that kernels traverse; bvh16 or embree, trees "
+        "that the host traverses; or ray-query, the device's own units; auto: by schedule and device");
     // The earlier name of --schedule, left out of the help.
     addNamed(parser, "--kernels", settings_.work.schedule, "");
     parser.get_option("--kernels")->group("");

@@ -58,7 +58,7 @@ constexpr RayAccelerator kAny = RayAccelerator::automatic;
 TEST(ScheduleChoice, DevicesChooseByWhatTheyAre) {
     gpu::DeviceDescription apart = cpu(); // a CPU whose memory the host does not reach
     apart.sharesMemory = false;
-    EXPECT_EQ(chosen(kAuto, kAny, cpu()), Choice(Schedule::hosted, RayAccelerator::embree));
+    EXPECT_EQ(chosen(kAuto, kAny, cpu()), Choice(Schedule::hosted, RayAccelerator::bvh16));
     EXPECT_EQ(chosen(kAuto, kAny, apart), Choice(Schedule::fused, RayAccelerator::bvh8));
     EXPECT_EQ(chosen(kAuto, kAny, card(false)), Choice(Schedule::wavefront, RayAccelerator::bvh8));
     EXPECT_EQ(chosen(kAuto, kAny, card(true)), Choice(Schedule::wavefront, RayAccelerator::rayQuery));
@@ -68,7 +68,7 @@ TEST(ScheduleChoice, DevicesChooseByWhatTheyAre) {
 TEST(ScheduleChoice, ACpuThatTracesRaysIsNotAskedTo) {
     gpu::DeviceDescription device = cpu();
     device.tracesRays = true;
-    EXPECT_EQ(chosen(kAuto, kAny, device), Choice(Schedule::hosted, RayAccelerator::embree));
+    EXPECT_EQ(chosen(kAuto, kAny, device), Choice(Schedule::hosted, RayAccelerator::bvh16));
     EXPECT_EQ(chosen(Schedule::fused, kAny, device), Choice(Schedule::fused, RayAccelerator::bvh8));
     EXPECT_EQ(chosen(kAuto, RayAccelerator::rayQuery, device),
               Choice(Schedule::fused, RayAccelerator::rayQuery));
@@ -76,7 +76,8 @@ TEST(ScheduleChoice, ACpuThatTracesRaysIsNotAskedTo) {
 
 TEST(ScheduleChoice, AnAcceleratorDecidesAScheduleThatIsLeftOpen) {
     EXPECT_EQ(chosen(kAuto, RayAccelerator::bvh8, cpu()), Choice(Schedule::fused, RayAccelerator::bvh8));
-    EXPECT_EQ(chosen(kAuto, RayAccelerator::embree, cpu()), Choice(Schedule::hosted, RayAccelerator::embree));
+    for (const RayAccelerator accelerator : {RayAccelerator::bvh16, RayAccelerator::embree})
+        EXPECT_EQ(chosen(kAuto, accelerator, cpu()), Choice(Schedule::hosted, accelerator));
     EXPECT_EQ(chosen(kAuto, RayAccelerator::bvh8, card(true)),
               Choice(Schedule::wavefront, RayAccelerator::bvh8));
 }
@@ -88,10 +89,13 @@ TEST(ScheduleChoice, RefusalsSayWhyAndWhatToTry) {
               "cannot use the schedule hosted: the host does not reach the memory of a card; try --schedule "
               "auto");
     EXPECT_EQ(refusal(Schedule::hosted, RayAccelerator::bvh8, cpu()),
-              "cannot use the accelerator bvh8 with the schedule hosted: Embree traces its rays; try "
+              "cannot use the accelerator bvh8 with the schedule hosted: the host traces its rays; try "
               "--schedule fused");
     EXPECT_EQ(refusal(kAuto, RayAccelerator::embree, card(true)),
               "cannot use the accelerator embree: the host does not reach the memory of a card; try "
+              "--accelerator auto");
+    EXPECT_EQ(refusal(kAuto, RayAccelerator::bvh16, card(true)),
+              "cannot use the accelerator bvh16: the host does not reach the memory of a card; try "
               "--accelerator auto");
     EXPECT_EQ(refusal(Schedule::fused, RayAccelerator::embree, cpu()),
               "cannot use the accelerator embree with the schedule fused: kernels trace its rays; try "

@@ -308,7 +308,7 @@ TEST_F(PanelTest, SavesWithItsButton) {
 // Presets are single settings of the lecture, but for the seed.
 TEST_F(PanelTest, AScheduleBringsAnAcceleratorOfItsOwn) {
     view_.canBeHosted = true;
-    view_.settings.work = {.schedule = Schedule::hosted, .accelerator = RayAccelerator::embree};
+    view_.settings.work = {.schedule = Schedule::hosted, .accelerator = RayAccelerator::bvh16};
     click("Lavalight", "View");
     click("Lavalight", "Render");
     choose("left/schedule", "fused");
