@@ -12,7 +12,6 @@
 
 #include "accel/embree_input.h"
 #include "base/error.h"
-#include "base/parallel.h"
 
 namespace lavalight {
 namespace {
@@ -66,7 +65,7 @@ const Group* buildGroups(std::span<const Triangle> triangles, const Bounds& boun
     for (uint32_t id = 0; id < triangles.size(); ++id)
         primitives.push_back(scale.primitive(triangleBox(triangles[id]), id));
     RTCBuildArguments arguments = rtcDefaultBuildArguments();
-    // Embree's best without splits, which made bounce rays slower by 8 to 20 %: docs/notes/performance.md.
+    // Embree's best without splits. Splits made bounce rays slower by 3 to 18 %: docs/notes/performance.md.
     arguments.buildQuality = RTC_BUILD_QUALITY_MEDIUM;
     arguments.maxBranchingFactor = kBvh16Width;
     arguments.sahBlockSize = arguments.minLeafSize = arguments.maxLeafSize = kBvh16LeafWidth;
@@ -175,7 +174,7 @@ Layout::Placed Layout::placeNode(std::span<const Child> children) {
 }
 
 void reserve(Bvh16& bvh, const Group& root) {
-    size_t nodes = 1; // at most so many: what holds a root that is a leaf, and all that stay closed
+    size_t nodes = 1; // one more than groups, for the root above a single leaf; opened groups need none
     size_t leaves = 0;
     const auto count = [&](const Group& group, const auto& self) -> void {
         ++(group.isLeaf ? leaves : nodes);
@@ -188,14 +187,11 @@ void reserve(Bvh16& bvh, const Group& root) {
 }
 
 void buildNonEmpty(Bvh16& bvh, std::span<const Triangle> triangles, std::span<const uint32_t> materials) {
-    const EmbreeDevice device(rtcNewDevice(fmt::format("threads={}", threadLimit()).c_str()));
-    const EmbreeBvh memory(device ? rtcNewBVH(device.get()) : nullptr);
-    if (!memory)
-        throw Error("cannot build the BVH: Embree does not start (out of memory?)");
-    const Group* root = buildGroups(triangles, bvh.bounds, memory.get());
+    const BuildMemory memory = makeBuildMemory();
+    const Group* root = buildGroups(triangles, bvh.bounds, memory.bvh.get());
     if (root == nullptr)
         throw Error(fmt::format("cannot build the BVH of {} triangles: Embree's error {} (4: out of memory)",
-                                triangles.size(), static_cast<int>(rtcGetDeviceError(device.get()))));
+                                triangles.size(), static_cast<int>(rtcGetDeviceError(memory.device.get()))));
     reserve(bvh, *root);
     Layout(bvh, triangles, materials)
         .addRoot(root->isLeaf ? std::vector{Child{root, 0.0}} : childrenOf(*root));

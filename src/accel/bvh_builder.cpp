@@ -76,17 +76,13 @@ const BuildNode* buildEmbreeTree(BuildContext& context, const Bounds& bounds, RT
 }
 
 Bvh buildNonEmpty(std::span<const Triangle> triangles, const Bounds& bounds, const BvhConfig& config) {
-    const uint32_t threads = config.threads > 0 ? config.threads : threadLimit();
-    const EmbreeDevice device(rtcNewDevice(fmt::format("threads={}", threads).c_str()));
-    const EmbreeBvh arena(device ? rtcNewBVH(device.get()) : nullptr);
-    if (!arena)
-        throw Error("cannot build the BVH: Embree does not start (out of memory?)");
+    const BuildMemory memory = makeBuildMemory(config.threads);
     const std::vector<Fragment> fragments = presplit(triangles, bounds, config.splitBudget);
     requireBvhFits(fragments.size(), 0);
     BuildContext context{fragments, config.triangleCost};
-    if (const BuildNode* root = buildEmbreeTree(context, bounds, arena.get()))
+    if (const BuildNode* root = buildEmbreeTree(context, bounds, memory.bvh.get()))
         return flattenTree(root);
-    if (rtcGetDeviceError(device.get()) == RTC_ERROR_OUT_OF_MEMORY)
+    if (rtcGetDeviceError(memory.device.get()) == RTC_ERROR_OUT_OF_MEMORY)
         throw Error(fmt::format("cannot build the BVH of {} triangles: out of memory", triangles.size()));
     // Triangles whose sizes span dozens of powers of two make surface areas peel off a few at each level.
     std::deque<BuildNode> nodes;

@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/parallel.h"
 #include "shared/bvh.h"
 
 namespace lavalight {
@@ -36,6 +39,15 @@ RTCBuildPrimitive BuildScale::primitive(const BuildBox& box, uint32_t id) const 
     const glm::vec3 lower(scale_ * glm::dvec3(box.lower));
     const glm::vec3 upper(scale_ * glm::dvec3(box.upper));
     return {lower.x, lower.y, lower.z, 0, upper.x, upper.y, upper.z, id};
+}
+
+BuildMemory makeBuildMemory(uint32_t threads) {
+    const std::string configuration = fmt::format("threads={}", threads > 0 ? threads : threadLimit());
+    EmbreeDevice device(rtcNewDevice(configuration.c_str()));
+    EmbreeBvh bvh(device ? rtcNewBVH(device.get()) : nullptr);
+    if (!bvh)
+        throw Error("cannot build the BVH: Embree does not start (out of memory?)");
+    return {std::move(device), std::move(bvh)};
 }
 
 } // namespace lavalight

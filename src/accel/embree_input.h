@@ -24,4 +24,13 @@ class BuildScale {
     double scale_;
 };
 
+// What Embree's builder makes lives in `bvh`.
+struct BuildMemory {
+    EmbreeDevice device;
+    EmbreeBvh bvh;
+};
+
+// `threads`: how many build at once; 0: threadLimit(). Throws Error where Embree does not start.
+[[nodiscard]] BuildMemory makeBuildMemory(uint32_t threads = 0);
+
 } // namespace lavalight
