@@ -15,8 +15,8 @@
 namespace lavalight {
 namespace {
 
-// Boxes are left out where the ray enters them behind the nearest triangle by more than its t may be
-// rounded, on slivers by 1e-4.
+// A triangle's t may be off by 1e-4, on slivers. A box is left out where the ray enters it farther behind the
+// nearest triangle than that; the factor is kProposalMargin of shaders/scene/proposed_hit.glsl.
 float withMargin(float end) {
     return end * (1.0f + 2e-4f);
 }

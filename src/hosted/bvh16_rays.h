@@ -43,7 +43,8 @@ struct Bvh16Ray {
 [[nodiscard]] std::optional<Bvh16Hit> traverse(const Bvh16& bvh, const Bvh16Ray& ray, TriangleTaker taker,
                                                bool isAny);
 
-// The same by vectors of four, which every processor has; traverse() takes those of eight where it can.
+// traverse() by vectors of four, which every processor has. traverse() itself takes vectors of eight where it
+// can.
 [[nodiscard]] std::optional<Bvh16Hit> traverseByFour(const Bvh16& bvh, const Bvh16Ray& ray,
                                                      TriangleTaker taker, bool isAny);
 

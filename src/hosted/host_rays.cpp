@@ -40,7 +40,7 @@ struct ShaderRays {
     SceneFeatures features = 0;
     [[nodiscard]] bool has(SceneFeatures feature) const { return (features & feature) != 0; }
 
-    const Bvh16* bvh16 = nullptr; // or else:
+    const Bvh16* bvh16 = nullptr; // null: Embree has the scene
     RTCScene embree = nullptr;
 
 #include "shader_rays_members.h"

@@ -31,7 +31,7 @@ void appendTo(png_structp png, png_bytep data, size_t size) {
         png_error(png, "out of memory");
 }
 
-// Its default says what it fails by to the standard error.
+// libpng's own handlers write to the standard error.
 void jump(png_structp png, png_const_charp) {
     png_longjmp(png, 1);
 }

@@ -107,7 +107,8 @@ class TraverseTest : public DeviceTest {
         EXPECT_LE(static_cast<double>(different), kMayDiffer * static_cast<double>(rays.size()))
             << "of " << rays.size() << " rays with " << hits << " hits";
     }
-    // Of all rays: where Embree's test, or the device's, differs from ours about the side of an edge.
+    // How many rays of all may meet an edge of which Embree's test, or the device's, says another side than
+    // ours.
     static constexpr size_t kAtEdges = 2;
     // `mayDiffer`: how many rays.
     void expectSameAsKernels(RayTracer& other, size_t mayDiffer) {
