@@ -21,7 +21,6 @@ struct Group {
     bool isLeaf = false;
     uint32_t count = 0;
     std::array<const Group*, kBvh16Width> children{};
-    std::array<double, kBvh16Width> areas{}; // of the children's boxes, in Embree's scale
     std::array<uint32_t, kBvh16LeafWidth> triangles{};
 };
 
@@ -39,13 +38,8 @@ void setGroupChildren(void* node, void** children, unsigned count, void*) {
     std::copy_n(reinterpret_cast<Group**>(children), count, group.children.begin());
 }
 
-void setAreas(void* node, const RTCBounds** bounds, unsigned count, void*) {
-    for (unsigned i = 0; i < count; ++i) {
-        const RTCBounds& b = *bounds[i];
-        static_cast<Group*>(node)->areas[i] =
-            BuildBox{{b.lower_x, b.lower_y, b.lower_z}, {b.upper_x, b.upper_y, b.upper_z}}.area();
-    }
-}
+void ignoreBounds(void*, const RTCBounds**, unsigned, void*) {
+} // the layout computes them, in the scene's scale
 
 void* createGroupOfTriangles(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* primitives,
                              size_t count, void*) {
@@ -75,35 +69,9 @@ const Group* buildGroups(std::span<const Triangle> triangles, const Bounds& boun
     arguments.primitiveCount = arguments.primitiveArrayCapacity = primitives.size();
     arguments.createNode = createGroup;
     arguments.setNodeChildren = setGroupChildren;
-    arguments.setNodeBounds = setAreas;
+    arguments.setNodeBounds = ignoreBounds;
     arguments.createLeaf = createGroupOfTriangles;
     return static_cast<const Group*>(rtcBuildBVH(&arguments));
-}
-
-struct Child {
-    const Group* group;
-    double area;
-};
-
-// The children of a node. Embree leaves most nodes half empty: the largest children that fit give their own
-// children in their place.
-std::vector<Child> childrenOf(const Group& node) {
-    std::vector<Child> children;
-    for (uint32_t i = 0; i < node.count; ++i)
-        children.push_back({node.children[i], node.areas[i]});
-    const auto fits = [&](const Child& child) {
-        return !child.group->isLeaf && children.size() - 1 + child.group->count <= kBvh16Width;
-    };
-    while (true) {
-        const auto largest = std::ranges::max_element(
-            children, {}, [&](const Child& child) { return fits(child) ? child.area : -1.0; });
-        if (!fits(*largest))
-            return children;
-        const Group& opened = *largest->group;
-        *largest = {opened.children[0], opened.areas[0]};
-        for (uint32_t i = 1; i < opened.count; ++i)
-            children.push_back({opened.children[i], opened.areas[i]});
-    }
 }
 
 // Lays groups out, depth first.
@@ -113,7 +81,7 @@ class Layout {
         : bvh_(&bvh), triangles_(triangles), materials_(materials) {}
 
     // Larger children come first: rays that any hit ends meet something there soonest.
-    void addRoot(std::span<const Child> children) { placeNode(children); }
+    void addRoot(std::span<const Group* const> children) { placeNode(children); }
 
   private:
     struct Placed {
@@ -123,10 +91,10 @@ class Layout {
 
     Placed place(const Group& group) {
         return group.isLeaf ? placeLeaf(std::span(group.triangles).first(group.count))
-                            : placeNode(childrenOf(group));
+                            : placeNode(std::span(group.children).first(group.count));
     }
     Placed placeLeaf(std::span<const uint32_t> ids);
-    Placed placeNode(std::span<const Child> children);
+    Placed placeNode(std::span<const Group* const> children);
 
     Bvh16* bvh_;
     std::span<const Triangle> triangles_;
@@ -149,13 +117,13 @@ Layout::Placed Layout::placeLeaf(std::span<const uint32_t> ids) {
     return placed;
 }
 
-Layout::Placed Layout::placeNode(std::span<const Child> children) {
+Layout::Placed Layout::placeNode(std::span<const Group* const> children) {
     constexpr float kInfinity = std::numeric_limits<float>::infinity();
     Placed placed{static_cast<uint32_t>(bvh_->nodes.size()), {}};
     bvh_->nodes.emplace_back();
     std::vector<Placed> below;
-    for (const Child& child : children)
-        below.push_back(place(*child.group));
+    for (const Group* child : children)
+        below.push_back(place(*child));
     std::ranges::stable_sort(below, std::greater(), [](const Placed& child) { return child.box.area(); });
     Bvh16Node& node = bvh_->nodes[placed.child];
     for (size_t plane = 0; plane < 6; ++plane)
@@ -174,7 +142,7 @@ Layout::Placed Layout::placeNode(std::span<const Child> children) {
 }
 
 void reserve(Bvh16& bvh, const Group& root) {
-    size_t nodes = 1; // one more than groups, for the root above a single leaf; opened groups need none
+    size_t nodes = root.isLeaf ? 1 : 0; // a leaf gets a root above it
     size_t leaves = 0;
     const auto count = [&](const Group& group, const auto& self) -> void {
         ++(group.isLeaf ? leaves : nodes);
@@ -194,8 +162,7 @@ void buildNonEmpty(Bvh16& bvh, std::span<const Triangle> triangles, std::span<co
                                 triangles.size(), static_cast<int>(rtcGetDeviceError(memory.device.get()))));
     reserve(bvh, *root);
     Layout(bvh, triangles, materials)
-        .addRoot(root->isLeaf ? std::vector{Child{root, 0.0}} : childrenOf(*root));
-    bvh.nodes.shrink_to_fit();
+        .addRoot(root->isLeaf ? std::span(&root, 1) : std::span(root->children).first(root->count));
 }
 
 } // namespace

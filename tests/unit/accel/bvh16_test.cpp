@@ -110,7 +110,7 @@ TEST(Bvh16, HoldsEveryTriangleInBoxesThatFit) {
         const Bvh16 bvh = buildBvh16(triangles);
         (void)Walk(bvh, triangles);
         EXPECT_LE(bvh.leaves.size(), count / 4 + 2) << "leaves are half full at least, but for a few";
-        EXPECT_LE(bvh.nodes.size(), bvh.leaves.size() / 4 + 1) << "and a third of nodes";
+        EXPECT_LE(bvh.nodes.size(), bvh.leaves.size() / 4 + 1) << "nodes have four children on average";
     }
 }
 
