@@ -126,8 +126,12 @@ Hit traceAmongSolids(RayFilter ignored, float end, bool startsVary, inout Ray ra
 }
 
 // glTF's back-face culling is for the camera alone: light transport needs closed surfaces.
+bool cullsBackFaces(uint bounce) {
+    return bounce == 0u;
+}
+
 RayFilter filterOf(uint slot, uint bounce, Ray ray) {
-    return RayFilter(bounce == 0u, ray.fromSurface, kNoSurface, alphaSeed(keyOfSlot(slot, bounce), kDimensionAlpha));
+    return RayFilter(cullsBackFaces(bounce), ray.fromSurface, kNoSurface, alphaSeed(keyOfSlot(slot, bounce), kDimensionAlpha));
 }
 
 float endOf(uint bounce, Ray ray) {
@@ -151,9 +155,12 @@ bool isCaught(Path path) {
     return sceneHas(kFeatureShadowCatcher) && path.etaScale == kCaught;
 }
 
+RayFilter shadowFilterOf(uint slot, uint bounce, ShadowRay ray) {
+    return RayFilter(false, ray.fromSurface, ray.toSurface,
+                     alphaSeed(keyOfSlot(slot, bounce + 1u), kDimensionShadowAlpha));
+}
+
 // Whether something stops the shadow ray of the vertex after `bounce` others.
 bool isOccluded(ShadowRay ray, uint slot, uint bounce) {
-    const RayFilter ignored = RayFilter(false, ray.fromSurface, ray.toSurface,
-                                        alphaSeed(keyOfSlot(slot, bounce + 1u), kDimensionShadowAlpha));
-    return intersectAny(ray.origin, ray.direction, 1.0, ignored);
+    return intersectAny(ray.origin, ray.direction, 1.0, shadowFilterOf(slot, bounce, ray));
 }

@@ -20,7 +20,7 @@ inline constexpr uint32_t kMaxBvh16Levels = 40;     // of nodes
 // and refers to the first leaf.
 struct alignas(64) Bvh16Node {
     std::array<std::array<float, kBvh16Width>, 6> planes; // lower x, y, z, upper x, y, z
-    std::array<uint32_t, kBvh16Width> children;           // those with larger boxes first
+    std::array<uint32_t, kBvh16Width> children;           // those with larger boxes first, missing ones last
 };
 
 // A triangle that is missing has three equal corners, which no ray hits.
@@ -29,6 +29,7 @@ struct alignas(64) Bvh16Leaf {
     std::array<std::array<Floats, 3>, 3> corners;    // by corner and axis
     std::array<uint32_t, kBvh16LeafWidth> triangles; // their ids
     std::array<uint32_t, kBvh16LeafWidth> materials; // their material words (shared/scene.h)
+    uint32_t count;                                  // of triangles that are there, the first lanes
 };
 
 struct Bvh16 {

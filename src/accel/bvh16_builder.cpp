@@ -104,6 +104,7 @@ class Layout {
 Layout::Placed Layout::placeLeaf(std::span<const uint32_t> ids) {
     Placed placed{kBvh16LeafBit | static_cast<uint32_t>(bvh_->leaves.size()), {}};
     Bvh16Leaf& leaf = bvh_->leaves.emplace_back();
+    leaf.count = static_cast<uint32_t>(ids.size());
     for (size_t lane = 0; lane < ids.size(); ++lane) {
         const Triangle& triangle = triangles_[ids[lane]];
         const glm::vec3 corners[] = {triangle.v0, triangle.v1, triangle.v2};

@@ -5,6 +5,8 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <limits>
+#include <utility>
 
 #ifdef __x86_64__
 #include <immintrin.h>
@@ -17,79 +19,103 @@ namespace {
 
 // A triangle's t may be off by 1e-4, on slivers. A box is left out where the ray enters it farther behind the
 // nearest triangle than that; the factor is kProposalMargin of shaders/scene/proposed_hit.glsl.
-float withMargin(float end) {
-    return end * (1.0f + 2e-4f);
-}
+constexpr float kMargin = 1.0f + 2e-4f;
 
 // The planes of a box move apart by this, relative to how far anything of the scene is from the ray's origin
 // along an axis: twice kSlabTolerance of shaders/lib/math/ray_box.glsl, which says why.
 constexpr float kPlaneTolerance = 2.0f * 16.0f / 16777216.0f;
 
-// A ray for boxes. Its origin is moved towards the near planes, and away from the far ones, by the tolerance.
-struct SlabRay {
-    float nearOrigin[3], farOrigin[3], inverse[3];
-    size_t nearPlanes[3], farPlanes[3]; // of Bvh16Node::planes
-};
+// Rays that are unlike are traced together in trees of at most this many nodes. In larger ones they are
+// faster one by one.
+constexpr size_t kMostNodesOfPackets = 1;
 
-// A ray for triangles, its main axis last.
-struct LeafRay {
-    float origin[3], shear[3];
-    size_t axes[3];
-    int32_t firstIgnored, secondIgnored;
-};
+// The most children that wait while a tree is traversed.
+constexpr uint32_t kMostWaiting = kMaxBvh16Levels * (kBvh16Width - 1) + 1;
+
+constexpr float kSmallestDirection = 1e-18f; // of shaders/lib/math/ray_direction.glsl
 
 // What a ray has found.
 struct Search {
     TriangleTaker taker;
+    size_t ray;
     bool cullsBackFaces, isAny;
     float end; // of what is still looked for
-    Bvh16Hit first{};
-    bool isFound = false;
+    Bvh16Hit first{0.0f, kNoTriangle, 0, {}, false};
 
-    void meet(const Bvh16Hit& hit, uint32_t material) {
-        const bool comesFirst = hit.t < end || (isFound && hit.t == end && hit.triangle < first.triangle);
-        const bool isAsked = (material & kAlphaBit) != 0 || (cullsBackFaces && !hit.front);
-        if (!comesFirst || (isAsked && !taker.takes(taker.taker, hit)))
+    void meet(const Bvh16Hit& hit) {
+        const bool comesFirst = hit.t < end || (isFound() && hit.t == end && hit.triangle < first.triangle);
+        const bool isAsked = (hit.material & kAlphaBit) != 0 || (cullsBackFaces && !hit.front);
+        if (!comesFirst || (isAsked && !taker.takes(taker.taker, ray, hit)))
             return;
         first = hit;
         end = hit.t;
-        isFound = true;
     }
-    [[nodiscard]] bool isOver() const { return isFound && isAny; }
+    [[nodiscard]] bool isFound() const { return first.triangle != kNoTriangle; }
+    [[nodiscard]] bool isOver() const { return isFound() && isAny; }
 };
 
-SlabRay slabRay(const Bvh16Ray& ray, const Bounds& bounds) {
-    SlabRay slab{};
-    const glm::vec3 reach =
-        glm::max(glm::abs(ray.origin - bounds.lower), glm::abs(bounds.upper - ray.origin));
-    const float tolerance = kPlaneTolerance * std::max({reach.x, reach.y, reach.z});
-    for (int axis = 0; axis < 3; ++axis) {
-        const float direction = ray.direction[axis];
-        const bool isBackwards = std::signbit(direction);
-        // Far from the world's origin, two units in the last place keep the sum from losing the tolerance.
-        const float shift = tolerance + std::abs(ray.origin[axis]) * 0x1p-22f;
-        const float away = isBackwards ? -shift : shift;
-        slab.inverse[axis] = 1.0f / direction;
-        slab.nearOrigin[axis] = ray.origin[axis] + away;
-        slab.farOrigin[axis] = ray.origin[axis] - away;
-        slab.nearPlanes[axis] = static_cast<size_t>(isBackwards ? axis + 3 : axis);
-        slab.farPlanes[axis] = static_cast<size_t>(isBackwards ? axis : axis + 3);
-    }
-    return slab;
+// Classes of directions: the axis along which they are largest, and their signs. Rays of one class meet the
+// same planes of boxes first, and turn triangles alike.
+constexpr uint32_t kDirectionClasses = 24;
+
+// Without branches, which the processor would guess wrong for rays that are unlike.
+uint32_t directionClass(const glm::vec3& direction) {
+    const glm::uvec3 bits = glm::floatBitsToUint(direction);
+    // Bits of floats that are not negative are ordered as the floats are. Those of smaller ones count as
+    // withoutZeros() changes them.
+    const glm::uvec3 size = glm::max(bits & 0x7fffffffu, glm::floatBitsToUint(kSmallestDirection));
+    const uint32_t isX = static_cast<uint32_t>(size.x >= size.y) & static_cast<uint32_t>(size.x >= size.z);
+    const auto isY = static_cast<uint32_t>(size.y >= size.z);
+    const uint32_t mainAxis = (1 - isX) * (2 - isY);
+    return mainAxis << 3 | bits.x >> 31 << 2 | bits.y >> 31 << 1 | bits.z >> 31;
 }
 
-LeafRay leafRay(const Bvh16Ray& ray) {
-    LeafRay turned{};
-    for (int i = 0; i < 3; ++i) {
-        const int axis = (ray.mainAxis + 1 + i) % 3;
-        turned.axes[i] = static_cast<size_t>(axis);
-        turned.origin[i] = ray.origin[axis];
-        turned.shear[i] = ray.shear[i];
+// What rays of a class have in common.
+struct Turn {
+    size_t nearPlanes[3], farPlanes[3]; // of Bvh16Node::planes, by axis
+    size_t axes[3];                     // the main one last
+};
+
+constexpr std::array<Turn, kDirectionClasses> kTurns = [] {
+    std::array<Turn, kDirectionClasses> turns{};
+    for (size_t i = 0; i < kDirectionClasses; ++i)
+        for (size_t axis = 0; axis < 3; ++axis) {
+            const bool isBackwards = (i >> (2 - axis) & 1) != 0;
+            turns[i].nearPlanes[axis] = isBackwards ? axis + 3 : axis;
+            turns[i].farPlanes[axis] = isBackwards ? axis : axis + 3;
+            turns[i].axes[axis] = ((i >> 3) + 1 + axis) % 3;
+        }
+    return turns;
+}();
+
+// The order in which rays are traced: their own, or by classes of directions.
+constexpr size_t kRaysAtATime = 2048;
+class RayOrder {
+  public:
+    // At most kRaysAtATime rays; the first has the number `first`.
+    RayOrder(std::span<const Bvh16Ray> rays, size_t first, bool byClass) {
+        std::array<uint8_t, kRaysAtATime> classes;
+        if (!byClass)
+            ends_[0] = static_cast<uint32_t>(rays.size());
+        for (size_t i = 0; i < rays.size() && byClass; ++i) {
+            classes[i] = static_cast<uint8_t>(directionClass(rays[i].direction));
+            ++ends_[classes[i]];
+        }
+        uint32_t before = 0;
+        for (uint32_t& end : ends_)
+            before = std::exchange(end, before) + before;
+        for (size_t i = 0; i < rays.size(); ++i)
+            numbers_[ends_[byClass ? classes[i] : 0]++] = static_cast<uint32_t>(first + i);
     }
-    turned.firstIgnored = static_cast<int32_t>(ray.firstIgnored);
-    turned.secondIgnored = static_cast<int32_t>(ray.secondIgnored);
-    return turned;
-}
+    [[nodiscard]] size_t endOfClass(size_t place) const { return *std::ranges::upper_bound(ends_, place); }
+    [[nodiscard]] std::span<const uint32_t> numbers(size_t begin, size_t end) const {
+        return std::span(numbers_).subspan(begin, end - begin);
+    }
+
+  private:
+    std::array<uint32_t, kRaysAtATime> numbers_;
+    std::array<uint32_t, kDirectionClasses> ends_{}; // of the classes, among the numbers
+};
 
 #ifdef __x86_64__
 
@@ -124,33 +150,21 @@ inline uint32_t bitsOf(int32_t __attribute__((vector_size(16))) lanes) {
 #undef LANES
 } // namespace baseline
 
-using Traversal = void (*)(const Bvh16&, const SlabRay&, const LeafRay&, Search&);
-
-const Traversal kFastest =
-#ifdef __x86_64__
-    __builtin_cpu_supports("avx2") != 0 ? avx2::traverseTree :
-#endif
-                                        baseline::traverseTree;
-
-std::optional<Bvh16Hit> traverseBy(Traversal traversal, const Bvh16& bvh, const Bvh16Ray& ray,
-                                   TriangleTaker taker, bool isAny) {
-    const glm::vec3 sum = ray.origin + ray.direction;
-    if (!std::isfinite(sum.x + sum.y + sum.z))
-        return std::nullopt;
-    Search search{taker, ray.cullsBackFaces, isAny, ray.end};
-    traversal(bvh, slabRay(ray, bvh.bounds), leafRay(ray), search);
-    return search.isFound ? std::optional(search.first) : std::nullopt;
-}
-
 } // namespace
 
-std::optional<Bvh16Hit> traverse(const Bvh16& bvh, const Bvh16Ray& ray, TriangleTaker taker, bool isAny) {
-    return traverseBy(kFastest, bvh, ray, taker, isAny);
+void traverse(const Bvh16Query& query) {
+#ifdef __x86_64__
+    static const bool hasAvx2 = __builtin_cpu_supports("avx2") != 0;
+    if (hasAvx2) {
+        avx2::find(query);
+        return;
+    }
+#endif
+    traverseByFour(query);
 }
 
-std::optional<Bvh16Hit> traverseByFour(const Bvh16& bvh, const Bvh16Ray& ray, TriangleTaker taker,
-                                       bool isAny) {
-    return traverseBy(baseline::traverseTree, bvh, ray, taker, isAny);
+void traverseByFour(const Bvh16Query& query) {
+    baseline::find(query);
 }
 
 } // namespace lavalight

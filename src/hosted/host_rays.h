@@ -14,6 +14,7 @@
 #include "accel/embree_triangles.h"
 #include "device_scene/gpu_scene.h"
 #include "gpu/kernel.h"
+#include "hosted/bvh16_rays.h"
 #include "kernels/kernel_source.h"
 #include "shared/features.h"
 #include "shared/frame.h"
@@ -42,25 +43,25 @@ inline constexpr std::array<std::string_view, 3> kTracingKernels{"extend", "conn
 // Error where one does not compile.
 [[nodiscard]] bool tracesAsHost(const KernelSource& source);
 
-// The answer for a ray depends on that ray alone, also where it is traced together with others: our own test
+struct HostHit {
+    Hit hit;           // its surface is its record; where t is infinite, the rest counts for nothing
+    uint32_t material; // index of the surface's material
+};
+
+// The answer for a ray depends on that ray alone, not on those that are traced with it: our own test
 // decides where triangles are met, and at equal t the one of the lowest number is hit, in whatever order
 // they are found. For one thread.
 class HostRays {
   public:
-    static constexpr size_t kRaysTogether = 8;
-
     HostRays(const HostScene& scene, const FrameParameters& frame, const WaveRange& range);
     ~HostRays();
 
-    // trace() and isOccluded() of shaders/scene/path_rays.glsl. The surface of a hit is its record.
-    [[nodiscard]] Hit trace(uint32_t slot, uint32_t bounce, Ray& ray);
-    // trace() of each of at most kRaysTogether rays. Embree is faster where they are much alike, as
-    // neighbouring camera rays are; the host's own tree takes them one by one.
-    void trace(uint32_t bounce, std::span<const uint32_t> slots, std::span<Ray> rays, std::span<Hit> hits);
-    [[nodiscard]] bool isOccluded(const ShadowRay& ray, uint32_t slot, uint32_t bounce);
-
-    // Index of the material of the surface that was met.
-    [[nodiscard]] uint32_t materialOf(const Hit& hit) const;
+    // trace() and isOccluded() of shaders/scene/path_rays.glsl for each ray of paths after `bounce` vertices.
+    // All spans have one length.
+    void trace(uint32_t bounce, Likeness likeness, std::span<const uint32_t> slots, std::span<Ray> rays,
+               std::span<HostHit> hits);
+    void findOccluded(uint32_t bounce, std::span<const uint32_t> slots, std::span<const ShadowRay> rays,
+                      std::span<uint8_t> occluded);
 
   private:
     struct Members;

@@ -33,23 +33,6 @@ void keepDirect(PathLayers& layers, const glm::vec3& radiance) {
 
 } // namespace
 
-const glm::uvec4& RecordBuffers::at(uint32_t plane, uint32_t record) const {
-    return written[plane * stride + record];
-}
-
-uint32_t RecordBuffers::slot(uint32_t record) const {
-    return at(kPlaneOrigin, record).w & kRecordSlotMask;
-}
-
-Path& RecordBuffers::path(uint32_t record) const {
-    return paths[slot(record)];
-}
-
-SurfaceId RecordBuffers::surfaceBefore(uint32_t record) const {
-    const bool isOnSurface = (at(kPlaneOrigin, record).w & kRecordOnSurface) != 0;
-    return isOnSurface ? SurfaceId{read[kPlaneHit * stride + record].y} : kNoSurface;
-}
-
 // Neighbouring records, which one thread takes.
 struct RecordTracer::Chunk {
     uint32_t first = 0;
@@ -115,88 +98,87 @@ void RecordTracer::trace(const RecordBuffers& buffers, uint32_t bounce, Chunk& c
         if (bounce == kVerticesOfDirectLight && !buffers.layers.empty())
             keepDirect(buffers.layers[buffers.slot(i)], buffers.path(i).radiance);
     }
-    for (const uint32_t i : std::span(withShadowRay).first(chunk.shadowRays))
-        connect(buffers, bounce, rays, i);
-    // Camera rays are much alike; others are traced faster one by one.
-    const size_t together = bounce == 0 ? HostRays::kRaysTogether : 1;
-    for (size_t i = 0; i < chunk.rays; i += together)
-        extend(buffers, bounce, rays,
-               std::span(goingOn).subspan(i, std::min<size_t>(together, chunk.rays - i)));
+    connect(buffers, bounce, rays, std::span(withShadowRay).first(chunk.shadowRays));
+    extend(buffers, bounce, rays, std::span(goingOn).first(chunk.rays));
     for (const uint32_t i : std::span(goingOn).first(chunk.rays))
         if (regions_[i] != kEnded)
             ++chunk.counts[regions_[i]];
 }
 
-// Adds what the record's shadow ray brings.
-void RecordTracer::connect(const RecordBuffers& buffers, uint32_t bounce, HostRays& rays,
-                           uint32_t record) const {
+void RecordTracer::readShadowRay(const RecordBuffers& buffers, uint32_t record, ShadowRay& ray) const {
     const uint32_t originPlane = (planes_ & kRecordShadowOrigin) != 0 ? kPlaneShadowOrigin : kPlaneOrigin;
     const glm::uvec4& direction = buffers.at(kPlaneShadow, record);
-    const ShadowRay ray{.origin = xyz(buffers.at(originPlane, record)),
-                        .fromSurface = buffers.surfaceBefore(record),
-                        .direction = xyz(direction),
-                        .toSurface = {direction.w},
-                        .contribution = {},
-                        .unused = 0.0f};
-    if (rays.isOccluded(ray, buffers.slot(record), bounce - 1))
-        return;
-    Path& path = buffers.path(record);
-    if (path.etaScale == kCaught)
-        path.throughput.y = path.throughput.x;
-    else
-        path.radiance += xyz(buffers.at(kPlaneContribution, record));
+    ray.origin = xyz(buffers.at(originPlane, record));
+    ray.fromSurface = buffers.surfaceBefore(record);
+    ray.direction = xyz(direction);
+    ray.toSurface.primitive = direction.w;
 }
 
-Ray RecordTracer::rayOf(const RecordBuffers& buffers, uint32_t record) const {
-    Ray ray{.origin = xyz(buffers.at(kPlaneOrigin, record)),
-            .fromSurface = buffers.surfaceBefore(record),
-            .direction = xyz(buffers.at(kPlaneDirection, record)),
-            .originCosine = 0.0f,
-            .receiver = 0,
-            .interior = {}};
+// Adds what the records' shadow rays bring.
+void RecordTracer::connect(const RecordBuffers& buffers, uint32_t bounce, HostRays& rays,
+                           std::span<const uint32_t> records) const {
+    std::vector<uint32_t> slots(records.size());
+    std::vector<ShadowRay> traced(records.size());
+    for (size_t i = 0; i < records.size(); ++i) {
+        slots[i] = buffers.slot(records[i]);
+        readShadowRay(buffers, records[i], traced[i]);
+        __builtin_prefetch(&buffers.paths[slots[i]]);
+    }
+    std::vector<uint8_t> occluded(records.size());
+    rays.findOccluded(bounce - 1, slots, traced, occluded);
+    for (size_t i = 0; i < records.size(); ++i) {
+        if (occluded[i] != 0)
+            continue;
+        Path& path = buffers.paths[slots[i]];
+        if (path.etaScale == kCaught)
+            path.throughput.y = path.throughput.x;
+        else
+            path.radiance += xyz(buffers.at(kPlaneContribution, records[i]));
+    }
+}
+
+void RecordTracer::readRay(const RecordBuffers& buffers, uint32_t record, Ray& ray) const {
+    ray.origin = xyz(buffers.at(kPlaneOrigin, record));
+    ray.fromSurface = buffers.surfaceBefore(record);
+    ray.direction = xyz(buffers.at(kPlaneDirection, record));
     if (!insides_.empty()) {
         const glm::uvec4& inside = buffers.at(kPlaneInterior, record);
         ray.interior = {inside.x, inside.y, inside.z};
     }
-    return ray;
 }
 
-// Traces the next rays of records, one or kRaysTogether.
+// Traces the next rays of records.
 void RecordTracer::extend(const RecordBuffers& buffers, uint32_t bounce, HostRays& rays,
                           std::span<const uint32_t> records) {
-    if (records.size() == 1) {
-        Ray ray = rayOf(buffers, records[0]);
-        const Hit hit = rays.trace(buffers.slot(records[0]), bounce, ray);
-        regions_[records[0]] = take(buffers, bounce, rays, records[0], hit, ray);
-        return;
-    }
-    std::array<uint32_t, HostRays::kRaysTogether> slots;
-    std::array<Ray, HostRays::kRaysTogether> traced;
-    std::array<Hit, HostRays::kRaysTogether> hits;
+    std::vector<uint32_t> slots(records.size());
+    std::vector<Ray> traced(records.size());
     for (size_t i = 0; i < records.size(); ++i) {
         slots[i] = buffers.slot(records[i]);
-        traced[i] = rayOf(buffers, records[i]);
+        readRay(buffers, records[i], traced[i]);
     }
-    rays.trace(bounce, std::span(slots).first(records.size()), std::span(traced).first(records.size()),
-               std::span(hits).first(records.size()));
+    std::vector<HostHit> hits(records.size());
+    rays.trace(bounce, bounce == 0 ? Likeness::alike : Likeness::unlike, slots, traced, hits);
     for (size_t i = 0; i < records.size(); ++i)
-        regions_[records[i]] = take(buffers, bounce, rays, records[i], hits[i], traced[i]);
+        regions_[records[i]] = take(buffers, bounce, records[i], hits[i], traced[i]);
 }
 
 // Keeps what the record's ray has met; returns the region where it goes, or kEnded.
-uint8_t RecordTracer::take(const RecordBuffers& buffers, uint32_t bounce, const HostRays& rays,
-                           uint32_t record, const Hit& hit, const Ray& ray) {
+uint8_t RecordTracer::take(const RecordBuffers& buffers, uint32_t bounce, uint32_t record, const HostHit& met,
+                           const Ray& ray) {
+    const Hit& hit = met.hit;
     if (!insides_.empty())
         insides_[record] = ray.interior;
     hits_[record] = {glm::floatBitsToUint(hit.t), hit.record, glm::floatBitsToUint(hit.barycentrics)};
     if (hit.t < std::numeric_limits<float>::infinity())
-        return classOfMaterials_[rays.materialOf(hit)];
+        return classOfMaterials_[met.material];
     if (bounce == 0)
         buffers.path(record).etaScale = kUncovered;
     if ((scene_.features & kEndsInKernels) != 0)
         return escapes_;
     // A throughput of NaN or infinity times the darkness: the film drops the sample.
-    buffers.path(record).radiance += 0.0f * xyz(buffers.at(kPlaneThroughput, record));
+    const glm::vec3 nothing = 0.0f * xyz(buffers.at(kPlaneThroughput, record));
+    if (nothing != glm::vec3(0.0f))
+        buffers.path(record).radiance += nothing;
     return kEnded;
 }
 

@@ -25,11 +25,18 @@ struct RecordBuffers {
     size_t stride = 0;                   // records from one plane to the next
 
     // What kernels wrote of a record.
-    [[nodiscard]] const glm::uvec4& at(uint32_t plane, uint32_t record) const;
-    [[nodiscard]] uint32_t slot(uint32_t record) const;
-    [[nodiscard]] Path& path(uint32_t record) const;
+    [[nodiscard]] const glm::uvec4& at(uint32_t plane, uint32_t record) const {
+        return written[plane * stride + record];
+    }
+    [[nodiscard]] uint32_t slot(uint32_t record) const {
+        return at(kPlaneOrigin, record).w & kRecordSlotMask;
+    }
+    [[nodiscard]] Path& path(uint32_t record) const { return paths[slot(record)]; }
     // The surface that its rays start on, or kNoSurface: where the kernels found it.
-    [[nodiscard]] SurfaceId surfaceBefore(uint32_t record) const;
+    [[nodiscard]] SurfaceId surfaceBefore(uint32_t record) const {
+        const bool isOnSurface = (at(kPlaneOrigin, record).w & kRecordOnSurface) != 0;
+        return isOnSurface ? SurfaceId{read[kPlaneHit * stride + record].y} : kNoSurface;
+    }
 };
 
 class RecordTracer {
@@ -60,12 +67,14 @@ class RecordTracer {
   private:
     struct Chunk;
     void trace(const RecordBuffers& buffers, uint32_t bounce, Chunk& chunk);
-    void connect(const RecordBuffers& buffers, uint32_t bounce, HostRays& rays, uint32_t record) const;
+    void connect(const RecordBuffers& buffers, uint32_t bounce, HostRays& rays,
+                 std::span<const uint32_t> records) const;
     void extend(const RecordBuffers& buffers, uint32_t bounce, HostRays& rays,
                 std::span<const uint32_t> records);
-    [[nodiscard]] Ray rayOf(const RecordBuffers& buffers, uint32_t record) const;
-    [[nodiscard]] uint8_t take(const RecordBuffers& buffers, uint32_t bounce, const HostRays& rays,
-                               uint32_t record, const Hit& hit, const Ray& ray);
+    void readShadowRay(const RecordBuffers& buffers, uint32_t record, ShadowRay& ray) const;
+    void readRay(const RecordBuffers& buffers, uint32_t record, Ray& ray) const;
+    [[nodiscard]] uint8_t take(const RecordBuffers& buffers, uint32_t bounce, uint32_t record,
+                               const HostHit& met, const Ray& ray);
     void sort(const RecordBuffers& buffers, const Chunk& chunk) const;
 
     HostScene scene_;

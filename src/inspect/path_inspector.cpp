@@ -83,15 +83,22 @@ TracedVertex PathInspector::traceByHost(const Renderer& renderer, State& state, 
     HostRays rays(hostScene(renderer.scene(), renderer.features()), renderer.frame(), range);
     if (range.bounce == 0)
         state.run(range);
+    constexpr uint32_t kSlot = 0;
     Ray ray = state.ray();
-    state.set(rays.trace(0, range.bounce, ray));
+    HostHit met{};
+    rays.trace(range.bounce, Likeness::unlike, std::span(&kSlot, 1), std::span(&ray, 1), std::span(&met, 1));
+    state.set(met.hit);
     state.set(ray);
     range.recordCount = 1;
     state.run(range);
     TracedVertex vertex = state.vertex();
     if ((vertex.flags & kTracedShadowRay) == 0)
         return vertex;
-    if (rays.isOccluded(state.shadowRay(), 0, range.bounce)) {
+    const ShadowRay shadowRay = state.shadowRay();
+    uint8_t isOccluded = 0;
+    rays.findOccluded(range.bounce, std::span(&kSlot, 1), std::span(&shadowRay, 1),
+                      std::span(&isOccluded, 1));
+    if (isOccluded != 0) {
         vertex.flags |= kTracedOccluded;
     } else {
         Path path = state.path();

@@ -48,7 +48,6 @@ RayTracer::RayTracer(gpu::Device& device, const GpuScene& scene, bool countsVisi
 template <typename Take>
 void RayTracer::byHost(size_t count, const Take& take) {
     constexpr size_t kTogether = 4096;
-    static_assert(kTogether % HostRays::kRaysTogether == 0);
     const auto start = std::chrono::steady_clock::now();
     const HostScene scene = hostScene(*scene_, 0); // all surfaces are opaque to these rays
     WaveRange range{};
@@ -65,14 +64,17 @@ size_t RayTracer::maxRays() const {
                             device_->limits().maxStorageBufferBytes / sizeof(ShadowRay));
 }
 
-std::vector<TracedHit> RayTracer::closest(std::span<const Ray> rays) {
+std::vector<TracedHit> RayTracer::closest(std::span<const Ray> rays, Likeness likeness) {
     if (!closest_) {
         std::vector<TracedHit> hits(rays.size());
         byHost(rays.size(), [&](HostRays& host, size_t first, size_t end) {
-            for (size_t i = first; i < end; ++i) {
-                Ray ray = rays[i];
-                hits[i] = tracedHit(host.trace(0, kBounce, ray));
-            }
+            const std::vector<uint32_t> slots(end - first);
+            std::vector<Ray> some(rays.begin() + static_cast<std::ptrdiff_t>(first),
+                                  rays.begin() + static_cast<std::ptrdiff_t>(end));
+            std::vector<HostHit> met(end - first);
+            host.trace(kBounce, likeness, slots, some, met);
+            std::ranges::transform(met, hits.begin() + static_cast<std::ptrdiff_t>(first), tracedHit,
+                                   &HostHit::hit);
         });
         return hits;
     }
@@ -87,32 +89,14 @@ std::vector<TracedHit> RayTracer::closest(std::span<const Ray> rays) {
     return out.downloadAll<TracedHit>();
 }
 
-std::vector<TracedHit> RayTracer::closestTogether(std::span<const Ray> rays) {
-    assert(!closest_);
-    constexpr size_t kMost = HostRays::kRaysTogether;
-    constexpr std::array<uint32_t, kMost> kSlots{};
-    std::vector<TracedHit> hits(rays.size());
-    byHost(rays.size(), [&](HostRays& host, size_t first, size_t end) {
-        for (size_t i = first; i < end; i += kMost) {
-            const size_t count = std::min(kMost, end - i);
-            std::array<Ray, kMost> some;
-            std::array<Hit, kMost> met;
-            std::copy_n(rays.begin() + static_cast<std::ptrdiff_t>(i), count, some.begin());
-            host.trace(kBounce, std::span(kSlots).first(count), std::span(some).first(count),
-                       std::span(met).first(count));
-            std::transform(met.begin(), met.begin() + static_cast<std::ptrdiff_t>(count),
-                           hits.begin() + static_cast<std::ptrdiff_t>(i), tracedHit);
-        }
-    });
-    return hits;
-}
-
 std::vector<uint32_t> RayTracer::occluded(std::span<const ShadowRay> rays) {
     if (!any_) {
         std::vector<uint32_t> flags(rays.size());
         byHost(rays.size(), [&](HostRays& host, size_t first, size_t end) {
-            for (size_t i = first; i < end; ++i)
-                flags[i] = host.isOccluded(rays[i], 0, 0) ? 1u : 0u;
+            const std::vector<uint32_t> slots(end - first);
+            std::vector<uint8_t> occluded(end - first);
+            host.findOccluded(0, slots, rays.subspan(first, end - first), occluded);
+            std::ranges::copy(occluded, flags.begin() + static_cast<std::ptrdiff_t>(first));
         });
         return flags;
     }

@@ -10,6 +10,7 @@
 #include "gpu/commands.h"
 #include "gpu/device.h"
 #include "gpu/kernel.h"
+#include "hosted/bvh16_rays.h"
 #include "shared/trace.h"
 #include "shared/wavefront.h"
 
@@ -25,9 +26,9 @@ class RayTracer {
     [[nodiscard]] size_t maxRays() const;
 
     // The first hit with t > 0 of each ray, from either side, but not of the triangle that it starts on.
-    [[nodiscard]] std::vector<TracedHit> closest(std::span<const Ray> rays);
-    // closest(), with HostRays::kRaysTogether neighbours at once. The scene's accelerator must be Embree's.
-    [[nodiscard]] std::vector<TracedHit> closestTogether(std::span<const Ray> rays);
+    // Kernels ignore the likeness.
+    [[nodiscard]] std::vector<TracedHit> closest(std::span<const Ray> rays,
+                                                 Likeness likeness = Likeness::unlike);
     // A flag for each ray: 1 where anything but the triangles that the ray starts and ends on lies at
     // 0 < t < 1. Contributions are ignored.
     [[nodiscard]] std::vector<uint32_t> occluded(std::span<const ShadowRay> rays);

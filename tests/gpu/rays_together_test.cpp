@@ -1,6 +1,5 @@
 // Rays that the host traces together find what each finds alone, whichever others are beside them.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -30,7 +29,7 @@ int rounds() {
     return text == nullptr ? 4 : std::stoi(text);
 }
 
-class RaysTogether : public DeviceTest {
+class RaysTogether : public DeviceTest, public testing::WithParamInterface<AcceleratorKind> {
   protected:
     void SetUp() override {
         if (!device().description().sharesMemory)
@@ -38,14 +37,14 @@ class RaysTogether : public DeviceTest {
     }
     [[nodiscard]] GpuScene upload(const Scene& scene) {
         const Lights lights = collectLights(scene, glm::vec3(0.0f), LightSelection::power);
-        return {device(), packScene(scene, lights, AcceleratorKind::embree)};
+        return {device(), packScene(scene, lights, GetParam())};
     }
     // How many of the rays find something else together than alone, in the order given and in another.
     [[nodiscard]] static size_t differing(RayTracer& tracer, std::vector<Ray> rays, uint32_t seed) {
         size_t count = 0;
         for (int order = 0; order < 2; ++order) {
             const std::vector<TracedHit> alone = tracer.closest(rays);
-            const std::vector<TracedHit> together = tracer.closestTogether(rays);
+            const std::vector<TracedHit> together = tracer.closest(rays, Likeness::alike);
             for (size_t i = 0; i < rays.size(); ++i)
                 count += alone[i].t != together[i].t || !isSameSurface(alone[i].surface, together[i].surface)
                              ? 1
@@ -56,7 +55,7 @@ class RaysTogether : public DeviceTest {
     }
 };
 
-TEST_F(RaysTogether, OfCamerasAndBouncesFindTheSame) {
+TEST_P(RaysTogether, OfCamerasAndBouncesFindTheSame) {
     const Scene scene = makeDenseScene(20000);
     const std::vector<Triangle> triangles = sceneTriangles(scene);
     const GpuScene gpuScene = upload(scene);
@@ -85,7 +84,7 @@ std::vector<Ray> towardsEdges(const ClosedMesh& mesh, const glm::vec3& origin, b
 }
 
 // From a random point inside, where roundings decide which triangle is met. None leaks through an edge.
-TEST_F(RaysTogether, AtEdgesAndVerticesFindTheSame) {
+TEST_P(RaysTogether, AtEdgesAndVerticesFindTheSame) {
     const ClosedMesh meshes[] = {makeCube(), makeGriddedCube(16), displaced(makeIcosphere(3), 0.1f, 1)};
     size_t edgeRays = 0;
     size_t leaks = 0;
@@ -112,7 +111,7 @@ TEST_F(RaysTogether, AtEdgesAndVerticesFindTheSame) {
 }
 
 // Each of two triangles in one place is met at the same distance.
-TEST_F(RaysTogether, AtCoincidentTrianglesFindTheSame) {
+TEST_P(RaysTogether, AtCoincidentTrianglesFindTheSame) {
     SceneBuilder builder;
     for (int copy = 0; copy < 3; ++copy)
         builder.add(ball({0, 0, 0}, 1.0f), lambert(glm::vec3(0.5f)));
@@ -160,28 +159,12 @@ class SlotTracer {
 
     std::vector<Hit> alone(uint32_t bounce, std::span<const SlotAndRay> rays) {
         std::vector<Hit> hits;
-        for (const SlotAndRay& one : rays) {
-            Ray ray = one.ray;
-            hits.push_back(host_.trace(one.slot, bounce, ray));
-        }
+        for (const SlotAndRay& one : rays)
+            hits.push_back(trace(bounce, Likeness::unlike, std::span(&one, 1))[0]);
         return hits;
     }
     std::vector<Hit> together(uint32_t bounce, std::span<const SlotAndRay> rays) {
-        constexpr size_t kMost = HostRays::kRaysTogether;
-        std::vector<Hit> hits(rays.size());
-        for (size_t first = 0; first < rays.size(); first += kMost) {
-            const std::span<const SlotAndRay> some =
-                rays.subspan(first, std::min(kMost, rays.size() - first));
-            std::array<uint32_t, kMost> slots{};
-            std::array<Ray, kMost> copies{};
-            for (size_t i = 0; i < some.size(); ++i) {
-                slots[i] = some[i].slot;
-                copies[i] = some[i].ray;
-            }
-            host_.trace(bounce, std::span(slots).first(some.size()), std::span(copies).first(some.size()),
-                        std::span(hits).subspan(first, some.size()));
-        }
-        return hits;
+        return trace(bounce, Likeness::alike, rays);
     }
 
   private:
@@ -200,6 +183,20 @@ class SlotTracer {
         return range;
     }
 
+    std::vector<Hit> trace(uint32_t bounce, Likeness likeness, std::span<const SlotAndRay> rays) {
+        std::vector<uint32_t> slots;
+        std::vector<Ray> copies;
+        for (const SlotAndRay& one : rays) {
+            slots.push_back(one.slot);
+            copies.push_back(one.ray);
+        }
+        std::vector<HostHit> met(rays.size());
+        host_.trace(bounce, likeness, slots, copies, met);
+        std::vector<Hit> hits(rays.size());
+        std::ranges::transform(met, hits.begin(), &HostHit::hit);
+        return hits;
+    }
+
     HostRays host_;
 };
 
@@ -215,25 +212,27 @@ size_t differences(const std::vector<Hit>& a, const std::vector<Hit>& b) {
 }
 
 // The host's own tree asks about triangles with alpha and about backs, Embree about every triangle.
-TEST_F(RaysTogether, ThroughAlphaAndCulledFacesFindTheSameInBothTrees) {
+TEST_P(RaysTogether, ThroughAlphaAndCulledFacesFindWhatTheOtherTreeFinds) {
     constexpr size_t kRays = 100'000;
     const Scene scene = makeShells();
     const Lights lights = collectLights(scene, glm::vec3(0.0f), LightSelection::power);
-    const GpuScene ofEmbree = upload(scene);
-    const GpuScene ofHost(device(), packScene(scene, lights, AcceleratorKind::bvh16));
+    const GpuScene one = upload(scene);
+    const GpuScene other(device(), packScene(scene, lights,
+                                             GetParam() == AcceleratorKind::bvh16 ? AcceleratorKind::embree
+                                                                                  : AcceleratorKind::bvh16));
     constexpr SceneFeatures kFeatures = kFeatureAlpha | kFeatureVertexColors;
     const std::vector<Ray> camera = makeCameraRays(scene.cameras.front(), kRays, 1);
     std::vector<SlotAndRay> rays;
     for (uint32_t slot = 0; slot < camera.size(); ++slot)
         rays.push_back({slot, camera[slot]});
     for (const uint32_t bounce : {0u, 1u})
-        EXPECT_LE(differences(SlotTracer(hostScene(ofEmbree, kFeatures), 1, kRays).alone(bounce, rays),
-                              SlotTracer(hostScene(ofHost, kFeatures), 1, kRays).alone(bounce, rays)),
+        EXPECT_LE(differences(SlotTracer(hostScene(one, kFeatures), 1, kRays).together(bounce, rays),
+                              SlotTracer(hostScene(other, kFeatures), 1, kRays).alone(bounce, rays)),
                   2u);
 }
 
 // Where chance, alpha and culling decide what a ray meets.
-TEST_F(RaysTogether, ThroughAlphaAndCulledFacesFindTheSame) {
+TEST_P(RaysTogether, ThroughAlphaAndCulledFacesFindTheSame) {
     constexpr size_t kRays = 100'000;
     const Scene scene = makeShells();
     const GpuScene gpuScene = upload(scene);
@@ -265,6 +264,12 @@ TEST_F(RaysTogether, ThroughAlphaAndCulledFacesFindTheSame) {
             }
     }
 }
+
+INSTANTIATE_TEST_SUITE_P(Trees, RaysTogether,
+                         testing::Values(AcceleratorKind::bvh16, AcceleratorKind::embree),
+                         [](const auto& tree) {
+                             return tree.param == AcceleratorKind::bvh16 ? "bvh16" : "embree";
+                         });
 
 } // namespace
 } // namespace lavalight::test

@@ -97,14 +97,16 @@ class RayBench {
         if (points.empty())
             throw Error(
                 fmt::format("cannot bench {}: no ray of its first camera hits anything", scene_->source));
-        return {benchClosest("camera", camera), benchClosest("bounce", makeBounceRays(points, 2)),
+        return {benchClosest("camera", Likeness::alike, camera),
+                benchClosest("bounce", Likeness::unlike, makeBounceRays(points, 2)),
                 benchAny("shadow", makeShadowRays(points, *scene_, triangles_, 3))};
     }
 
   private:
-    Row benchClosest(const char* kind, const std::vector<Ray>& rays) {
+    Row benchClosest(const char* kind, Likeness likeness, const std::vector<Ray>& rays) {
         return bench(
-            kind, rays, [](RayTracer& tracer, const auto& ours) { return tracer.closest(ours); },
+            kind, rays,
+            [likeness](RayTracer& tracer, const auto& ours) { return tracer.closest(ours, likeness); },
             [this](const auto& theirs) { return oracle_.closest(theirs); });
     }
     Row benchAny(const char* kind, const std::vector<ShadowRay>& rays) {
