@@ -41,8 +41,8 @@ struct Bvh16Ray {
 // What rays look for: the triangle that comes first, or any that they take.
 enum class Sought { first, any };
 
-// Whether neighbouring rays are much alike. It changes nothing but the time that they take
-// and, with Sought::any, which triangle is found.
+// Whether neighbouring rays are much alike. It changes nothing but the time that they take and, with
+// Sought::any, which triangle is found.
 enum class Likeness { unlike, alike };
 
 struct Bvh16Query {
@@ -57,9 +57,8 @@ struct Bvh16Query {
 // Finds for each ray the triangle that it takes before its end and that comes first: the nearest, and of
 // several at one t that of the lowest number. Where triangles are met is computed to the bits of
 // intersectTriangle(), after withoutZeros(), and boxes count as larger than their triangles by as much as
-// that rounds, so that trees of other shapes give the same answers. With
-// Sought::any, it finds any triangle that the ray takes. A ray that is not finite, or whose components sum to
-// what is not, meets nothing.
+// that rounds, so that trees of other shapes give the same answers. With Sought::any, it finds any triangle
+// that the ray takes. A ray that is not finite, or whose components sum to what is not, meets nothing.
 void traverse(const Bvh16Query& query);
 
 // traverse() by vectors of four, which every processor has. traverse() itself takes vectors of eight where it

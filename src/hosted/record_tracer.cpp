@@ -122,7 +122,7 @@ void RecordTracer::connect(const RecordBuffers& buffers, uint32_t bounce, HostRa
     for (size_t i = 0; i < records.size(); ++i) {
         slots[i] = buffers.slot(records[i]);
         readShadowRay(buffers, records[i], traced[i]);
-        __builtin_prefetch(&buffers.paths[slots[i]]);
+        __builtin_prefetch(&buffers.paths[slots[i]]); // anywhere in memory, and written below
     }
     std::vector<uint8_t> occluded(records.size());
     rays.findOccluded(bounce - 1, slots, traced, occluded);
@@ -175,7 +175,8 @@ uint8_t RecordTracer::take(const RecordBuffers& buffers, uint32_t bounce, uint32
         buffers.path(record).etaScale = kUncovered;
     if ((scene_.features & kEndsInKernels) != 0)
         return escapes_;
-    // A throughput of NaN or infinity times the darkness: the film drops the sample.
+    // A throughput of NaN or infinity times the darkness: the film drops the sample. Other paths are left
+    // alone, since they lie anywhere in memory.
     const glm::vec3 nothing = 0.0f * xyz(buffers.at(kPlaneThroughput, record));
     if (nothing != glm::vec3(0.0f))
         buffers.path(record).radiance += nothing;
