@@ -97,7 +97,8 @@ bool nextRay(Vertex v, inout Path path, out Ray ray) {
 // Kills the path or makes up for those that died; indirect light only: what NEE found stays. survival: the probability.
 bool survives(Vertex v, inout Path path, out float survival) {
     survival = 1.0;
-    if (v.key.vertex < frame.rouletteStart)
+    const bool isSmooth = path.bsdfPdf == 0.0;
+    if (v.key.vertex < frame.rouletteStart || isSpared(kRoulette, v.key.vertex, isSmooth))
         return true;
     survival = min(v.survival, survivalByThroughput(kRoulette, path.throughput * path.etaScale));
     if (survival >= 1.0)

@@ -102,6 +102,7 @@ SHARED_CONST uint kRouletteConstant = 2u;
 SHARED_CONST uint kRouletteMeanAlbedo = 3u;
 SHARED_CONST uint kRouletteMaxAlbedo = 4u;
 SHARED_CONST uint kRouletteSqrtThroughput = 5u;
+SHARED_CONST uint kRouletteCbrtThroughput = 6u;
 SHARED_CONST uint kFresnelExact = 0u;
 SHARED_CONST uint kFresnelSchlick = 1u;
 SHARED_CONST uint kTextureFilterBilinear = 0u;

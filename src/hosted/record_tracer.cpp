@@ -85,6 +85,8 @@ void RecordTracer::trace(const RecordBuffers& buffers, uint32_t bounce, Chunk& c
     std::array<uint32_t, kRecordsPerChunk> goingOn;
     for (uint32_t i = chunk.first; i < chunk.end; ++i) {
         const uint32_t flags = buffers.at(kPlaneOrigin, i).w;
+        if (bounce == 0)
+            buffers.path(i) = {.throughput = {}, .bsdfPdf = 0.0f, .radiance = {}, .etaScale = 1.0f};
         withShadowRay[chunk.shadowRays] = goingOn[chunk.rays] = i;
         chunk.shadowRays += (flags & kRecordHasShadowRay) != 0 ? 1 : 0;
         chunk.rays += (flags & kRecordGoesOn) != 0 ? 1 : 0;

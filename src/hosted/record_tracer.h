@@ -56,9 +56,10 @@ class RecordTracer {
         frame_ = frame;
         range_ = range;
     }
-    // Takes the first `count` records that kernels wrote after `bounce` vertices: adds what they emit, and
-    // what their shadow rays bring, to the paths' radiance; traces their next rays; and sorts those that go
-    // on. No bit depends on the order of records, on threads or on the wave.
+    // Takes the first `count` records that kernels wrote after `bounce` vertices: starts their paths where
+    // there is no vertex yet; adds what they emit, and what their shadow rays bring, to the paths' radiance;
+    // traces their next rays; and sorts those that go on. No bit depends on the order of records, on threads
+    // or on the wave.
     [[nodiscard]] Regions advance(const RecordBuffers& buffers, uint32_t count, uint32_t bounce);
 
     [[nodiscard]] uint64_t shadowRays() const { return shadowRays_; } // of the last advance()

@@ -52,12 +52,13 @@ Table box(const LabDevice& lab, const LabOptions& options) {
         const char* name;
         Roulette roulette;
     };
-    constexpr std::array<Kind, 6> kinds{{{"off (64 bounces)", Roulette::off},
+    constexpr std::array<Kind, 7> kinds{{{"off (64 bounces)", Roulette::off},
                                          {"constant 50 %", Roulette::constant},
                                          {"mean-albedo", Roulette::meanAlbedo},
                                          {"max-albedo", Roulette::maxAlbedo},
                                          {"throughput", Roulette::throughput},
-                                         {"sqrt-throughput", Roulette::sqrtThroughput}}};
+                                         {"sqrt-throughput", Roulette::sqrtThroughput},
+                                         {"cbrt-throughput", Roulette::cbrtThroughput}}};
     RenderBench bench(lab, "cornell-box", kRouletteImageHeight);
     RenderTable rows(bench, static_cast<uint32_t>(options.samples));
     EstimatorSettings estimator = independentSettings(options.seed);

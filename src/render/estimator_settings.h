@@ -20,6 +20,7 @@ enum class Roulette : uint32_t {
     meanAlbedo = kRouletteMeanAlbedo,
     maxAlbedo = kRouletteMaxAlbedo,
     sqrtThroughput = kRouletteSqrtThroughput,
+    cbrtThroughput = kRouletteCbrtThroughput,
 };
 enum class Fresnel : uint32_t { exact = kFresnelExact, schlick = kFresnelSchlick };
 enum class TextureFilter : uint32_t {
@@ -36,7 +37,7 @@ struct EstimatorSettings {
     bool nextEventEstimation = true;            // off: light is found only by hitting it
     LightSelection lightSelection = LightSelection::automatic;
     Mis mis = Mis::power; // off, with NEE on: emission found by BSDF rays counts at camera and delta vertices
-    Roulette roulette = Roulette::sqrtThroughput;
+    Roulette roulette = Roulette::cbrtThroughput;
     uint32_t rouletteStart = 3;       // first vertex where a path may die; the camera's first hit is vertex 1
     float rouletteProbability = 0.5f; // probability of survival, for Roulette::constant
     bool misSurvival = false; // the BSDF pdf of MIS weights is multiplied by the probability of survival

@@ -89,8 +89,6 @@ void HostedPaths::start(const Transport& transport, const BoundBand& band, WaveR
     commands_.begin(timingOf(range.recordCount));
     commands_.dispatch(band[transport.hosted.camera], groupsFor(range.recordCount), pushed(range));
     commands_.submitAndWait();
-    for (Path& path : buffers_.paths.first(range.recordCount))
-        path = {.throughput = {}, .bsdfPdf = 0.0f, .radiance = glm::vec3(0.0f), .etaScale = 1.0f};
     tracer_.start(frame_, range);
 }
 

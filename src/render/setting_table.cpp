@@ -28,7 +28,8 @@ constexpr std::array kLightSelections{
     named("uniform", LightSelection::uniform), named("tree", LightSelection::tree)};
 constexpr std::array kMisKinds{named("power", Mis::power), named("balance", Mis::balance),
                                named("off", Mis::off)};
-constexpr std::array kRoulettes{named("sqrt-throughput", Roulette::sqrtThroughput),
+constexpr std::array kRoulettes{named("cbrt-throughput", Roulette::cbrtThroughput),
+                                named("sqrt-throughput", Roulette::sqrtThroughput),
                                 named("throughput", Roulette::throughput),
                                 named("off", Roulette::off),
                                 named("constant", Roulette::constant),

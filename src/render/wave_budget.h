@@ -7,14 +7,17 @@
 namespace lavalight {
 
 // Systems reset a GPU that works on one submission for too long: Windows after two seconds, Linux' amdgpu
-// after ten. A CPU has no such watchdog, but Ctrl-C waits for the end of a wave.
+// after ten. A CPU has no such watchdog, but Ctrl-C and --time wait for the end of a wave.
 class WaveBudget {
   public:
     static constexpr double kLongest = 1.0; // seconds
     static constexpr uint32_t kFewest = 4096;
+    static constexpr uint32_t kFirstOnCpu = 1u << 18;
 
-    // Waves never have more than `most` slots. A GPU's speed has to be seen: its first wave is a small one.
-    WaveBudget(uint32_t most, bool isCpu) : most_(most), slots_(isCpu ? most : std::min(most, kFewest)) {}
+    // Waves never have more than `most` slots. A device's speed has to be seen: on a GPU, whose watchdog may
+    // be near, the first wave is a small one.
+    WaveBudget(uint32_t most, bool isCpu)
+        : most_(most), slots_(std::min(most, isCpu ? kFirstOnCpu : kFewest)) {}
 
     [[nodiscard]] uint32_t slots() const { return slots_; }
 

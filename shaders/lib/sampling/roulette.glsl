@@ -17,12 +17,26 @@ float survivalByAlbedo(uint kind, float constantProbability, vec3 albedo) {
     return 1.0;
 }
 
+// Up to this vertex, kRouletteCbrtThroughput lets all paths go on from smooth surfaces. Beyond it, paths that are caught in
+// glass end before --max-bounces cuts them.
+const uint kMostSpared = 32u;
+
 // Survival by the kinds that go by what the path carries: `throughput` after the next direction is drawn, without the scaling
-// by eta^2 that radiance undergoes inside glass. The square root, as Cycles takes it, kills less: a path that dies early costs
-// more in variance than it saves (docs/performance.md).
+// by eta^2 that radiance undergoes inside glass. Roots kill less: a path that dies early costs more in variance than it saves.
+// The square root is that of Cycles; the cube root takes the least time to an equal error (docs/notes/performance.md).
 float survivalByThroughput(uint kind, vec3 throughput) {
-    if (kind != kRouletteThroughput && kind != kRouletteSqrtThroughput)
-        return 1.0;
     const float largest = max(throughput.x, max(throughput.y, throughput.z));
-    return min(kind == kRouletteThroughput ? largest : sqrt(largest), kMaxSurvival);
+    if (kind == kRouletteThroughput)
+        return min(largest, kMaxSurvival);
+    if (kind == kRouletteSqrtThroughput)
+        return min(sqrt(largest), kMaxSurvival);
+    if (kind == kRouletteCbrtThroughput)
+        return min(pow(largest, 1.0 / 3.0), kMaxSurvival);
+    return 1.0;
+}
+
+// Whether a path goes on from this vertex in any case. Behind a mirror or glass is light that no shadow ray finds: few paths
+// bring it, and each of them much.
+bool isSpared(uint kind, uint vertex, bool isSmooth) {
+    return kind == kRouletteCbrtThroughput && isSmooth && vertex <= kMostSpared;
 }

@@ -74,7 +74,8 @@ TEST(Settings, WhatIsOutOfRangeIsRefusedByItsOptionsName) {
 TEST(Settings, MisSurvivalNeedsARouletteThatDoesNotKnowTheDirection) {
     RenderSettings settings = goodSettings();
     settings.estimator.misSurvival = true;
-    for (const Roulette roulette : {Roulette::sqrtThroughput, Roulette::throughput, Roulette::off}) {
+    for (const Roulette roulette :
+         {Roulette::cbrtThroughput, Roulette::sqrtThroughput, Roulette::throughput, Roulette::off}) {
         settings.estimator.roulette = roulette;
         EXPECT_TRUE(complaint(settings).starts_with("--mis-survival")) << complaint(settings);
     }
@@ -103,7 +104,7 @@ TEST(Presets, TellTheOptionsThatTheySet) {
     EXPECT_EQ(optionsOf(findPreset("nee")), "as cosine, with --nee on --mis off");
     EXPECT_EQ(optionsOf(findPreset("reference")),
               "all defaults: as roulette, with --sampler sobol --light-selection auto --roulette "
-              "sqrt-throughput");
+              "cbrt-throughput");
 }
 
 TEST(Presets, AnUnknownOneIsRefusedWithThoseThereAre) {

@@ -44,6 +44,12 @@ TEST(WaveBudget, ACpuStartsWithAWholeWave) {
     EXPECT_LE(run({kMost, true}, 1e5, 100).slots / 1e5, WaveBudget::kLongest);
 }
 
+TEST(WaveBudget, WavesOfAQuickCpuGrowBeyondTheFirst) {
+    EXPECT_EQ(WaveBudget(4 * kMost, true).slots(), WaveBudget::kFirstOnCpu);
+    EXPECT_EQ(run({4 * kMost, true}, 1e7, 100).slots, 4 * kMost);
+    EXPECT_EQ(run({4 * kMost, true}, 9e5, 100).slots, WaveBudget::kFirstOnCpu) << "which takes 0.29 s";
+}
+
 TEST(WaveBudget, SizesThatAreNoPowerOfTwoAreReached) {
     EXPECT_EQ(run({100'000, false}, 1e8, 20).slots, 100'000u);
     EXPECT_EQ(run({1000, false}, 1e8, 20).slots, 1000u);
