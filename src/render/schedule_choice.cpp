@@ -11,6 +11,7 @@
 #include "render/phase.h"
 #include "render/setting_names.h"
 #include "render/setting_rules.h"
+#include "render/wave_budget.h"
 #include "shared/records.h"
 
 namespace lavalight {
@@ -20,8 +21,8 @@ namespace {
 // kernel no faster, and the wavefront by a tenth at 2^20; --time and Ctrl-C wait for the end of a wave. The
 // hosted schedule has many short submissions at the end of each wave, during which processors wait: twice
 // the slots make it faster by up to 5 %.
-constexpr uint32_t kWaveSize = 1u << 18;
-constexpr uint32_t kHostedWaveSize = 1u << 19;
+constexpr uint32_t kWaveSize = WaveBudget::kFirstOnCpu;
+constexpr uint32_t kHostedWaveSize = 2 * kWaveSize;
 
 // The most records of a wave, whose planes lie in one buffer: every device allows 128 MiB.
 constexpr uint32_t kMostRecords = (1u << 27) / (kPlanesOut * sizeof(glm::uvec4)) - kPlanePadding;

@@ -104,15 +104,16 @@ constexpr std::array kRows{
                .panelLabel = "MIS",
                .panelHelp = "A light found both by asking and by running into it is weighted by how likely "
                             "each was. Off: only one of the two counts, and mirrors of lamps get fireflies"},
-    SettingRow{
-        .name = "roulette",
-        .values = oneOf<&E::roulette>(kRoulettes, CONSTANT_ROULETTE),
-        .decidesBits = true,
-        .mayChangeMean = false,
-        .help = "Probability that a path goes on: by the light it carries, by albedo, constant, or 1 (off)",
-        .panelLabel = "roulette",
-        .panelHelp = "A path that carries little is ended by chance; one that survives counts for "
-                     "those that did not. The mean stays"},
+    SettingRow{.name = "roulette",
+               .values = oneOf<&E::roulette>(kRoulettes, CONSTANT_ROULETTE),
+               .decidesBits = true,
+               .mayChangeMean = false,
+               .help = "Probability that a path goes on: by the light it carries (its cube root, which "
+                       "spares paths from smooth mirrors and glass, its square root, or itself), by albedo, "
+                       "constant, or 1 (off)",
+               .panelLabel = "roulette",
+               .panelHelp = "A path that carries little is ended by chance; one that survives counts for "
+                            "those that did not. The mean stays"},
     SettingRow{.name = "roulette-start",
                .values = WholeNumber{&E::rouletteStart, 1, 0x7fffffff, 64},
                .decidesBits = true,

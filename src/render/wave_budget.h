@@ -14,8 +14,8 @@ class WaveBudget {
     static constexpr uint32_t kFewest = 4096;
     static constexpr uint32_t kFirstOnCpu = 1u << 18;
 
-    // Waves never have more than `most` slots. A device's speed has to be seen: on a GPU, whose watchdog may
-    // be near, the first wave is a small one.
+    // Waves never have more than `most` slots, and the first ones fewer, until the device's speed is known:
+    // much fewer on a GPU, whose watchdog may be near.
     WaveBudget(uint32_t most, bool isCpu)
         : most_(most), slots_(std::min(most, isCpu ? kFirstOnCpu : kFewest)) {}
 

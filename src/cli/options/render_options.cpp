@@ -88,8 +88,8 @@ void RenderOptions::declareDevice(CLI::App& parser) {
     parser.get_option("--kernels")->group("");
     parser
         .add_option("--wave-size", settings_.work.waveSize,
-                    "Paths in flight, by the schedule hosted 931919 at most; 0: by the schedule; changes no "
-                    "bit of the image")
+                    "Most paths in flight, by the schedule hosted 931919; 0: by the schedule; changes no bit "
+                    "of the image")
         ->type_name("N");
     parser
         .add_option("--band-rows", settings_.work.bandRows,

@@ -38,7 +38,7 @@ TEST(WaveBudget, ASlowGpuIsNeverKeptTooLong) {
     }
 }
 
-TEST(WaveBudget, ACpuStartsWithAWholeWave) {
+TEST(WaveBudget, ACpuStartsWithAWaveOfTheUsualSize) {
     EXPECT_EQ(WaveBudget(kMost, true).slots(), kMost);
     EXPECT_EQ(run({kMost, true}, 5e5, 100).slots, kMost);
     EXPECT_LE(run({kMost, true}, 1e5, 100).slots / 1e5, WaveBudget::kLongest);
