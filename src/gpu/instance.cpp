@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "gpu/direct_driver.h"
 #include "gpu/vulkan_error.h"
+#include "gpu/wide_vectors.h"
 
 namespace lavalight::gpu {
 
@@ -91,6 +92,23 @@ vk::raii::Instance makeInstance(const vk::raii::Context& context, bool validate,
         "the Vulkan instance (is a driver installed? Debian's mesa-vulkan-drivers has one for CPUs)", create);
 }
 
+// The first instance of a process decides the width of lavapipe's vectors.
+vk::raii::Instance startDrivers(const vk::raii::Context& context, bool validate,
+                                std::span<const char* const> extensions) {
+    keepKernelsByWidth();
+    vk::raii::Instance instance = makeInstance(context, validate, extensions);
+    const bool isTooNarrow =
+        checked("list", "the Vulkan devices", [&] { return gainsByWideVectors(instance); });
+    if (!isTooNarrow)
+        return instance;
+    {
+        const auto lock = lockLoader();
+        instance = nullptr;
+        useWideVectors();
+    }
+    return makeInstance(context, validate, extensions);
+}
+
 } // namespace
 
 std::unique_lock<std::mutex> lockLoader() {
@@ -100,7 +118,7 @@ std::unique_lock<std::mutex> lockLoader() {
 
 Instance::Instance(bool validate, std::span<const char* const> extensions)
     : context_(makeContext()), messages_(std::make_unique<MessageLog>()),
-      instance_(makeInstance(context_, validate, extensions)) {
+      instance_(startDrivers(context_, validate, extensions)) {
     if (!validate)
         return;
     // The C structure: Vulkan-Hpp 1.4 (Debian 13) declares the callback with other types than 1.3.

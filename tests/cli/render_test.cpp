@@ -358,5 +358,23 @@ TEST_F(Render, InterruptionWritesTheImageSoFar) {
     EXPECT_EQ(json::parse(readFile(folder_ / "a.json")).at("complete"), false);
 }
 
+// Mesa 25 finds texture code of another kernel and another width in its cache, and calls it.
+TEST_F(Render, WidthsOfLavapipesVectorsDoNotShareCode) {
+    const auto draw = [&](const std::string& scene, const std::string& bits, const std::string& image) {
+        const EnvironmentVariable width("LP_NATIVE_VECTOR_WIDTH", bits);
+        expectSuccess({scene, "--schedule", "fused", "-o", image}, "32x24");
+    };
+    {
+        const EnvironmentVariable cache("XDG_CACHE_HOME", (folder_ / "empty").string());
+        draw("cornell-glass", "256", "right.exr");
+    }
+    const EnvironmentVariable cache("XDG_CACHE_HOME", (folder_ / "used").string());
+    draw("cornell-box", "128", "box.exr");
+    draw("cornell-glass", "256", "glass.exr");
+    expectEqualPixels(image("glass.exr"), image("right.exr"));
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "used/lavapipe-128-bits"));
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "used/lavapipe-256-bits"));
+}
+
 } // namespace
 } // namespace lavalight

@@ -78,6 +78,12 @@ for name in http_proxy https_proxy no_proxy HTTP_PROXY HTTPS_PROXY NO_PROXY; do
     [ -z "${!name:-}" ] || inside_environment+=("$name=${!name}")
 done
 
+# make_work: an empty folder in `roots`, as `work`.
+make_work() {
+    mkdir -p "$roots"
+    work="$(mktemp -d "$roots/work.XXXXXX")"
+}
+
 # enter_clean SUITE: a clean root of that suite with a writable layer of its own in `work`, as `root`. Wants `roots` and `work`.
 enter_clean() {
     local suite="$1" layer
