@@ -92,21 +92,23 @@ vk::raii::Instance makeInstance(const vk::raii::Context& context, bool validate,
         "the Vulkan instance (is a driver installed? Debian's mesa-vulkan-drivers has one for CPUs)", create);
 }
 
-// The first instance of a process decides the width of lavapipe's vectors.
+// Makes an instance whose lavapipe has the width of vectors that the process keeps.
 vk::raii::Instance startDrivers(const vk::raii::Context& context, bool validate,
                                 std::span<const char* const> extensions) {
+    // No other thread may list devices meanwhile: it would keep those of another width.
+    static std::mutex deciding;
+    const std::lock_guard alone(deciding);
     keepKernelsByWidth();
-    vk::raii::Instance instance = makeInstance(context, validate, extensions);
-    const bool isTooNarrow =
-        checked("list", "the Vulkan devices", [&] { return gainsByWideVectors(instance); });
-    if (!isTooNarrow)
-        return instance;
-    {
-        const auto lock = lockLoader();
-        instance = nullptr;
-        useWideVectors();
+    vk::raii::Instance probe = nullptr;
+    if (mayUseWideVectors()) {
+        probe = makeInstance(context, false, {});
+        if (checked("list", "the Vulkan devices", [&] { return gainsByWideVectors(probe); }))
+            useWideVectors();
     }
-    return makeInstance(context, validate, extensions);
+    vk::raii::Instance instance = makeInstance(context, validate, extensions); // while drivers are loaded
+    const auto lock = lockLoader();
+    probe = nullptr;
+    return instance;
 }
 
 } // namespace

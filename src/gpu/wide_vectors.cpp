@@ -1,6 +1,7 @@
 #include "gpu/wide_vectors.h"
 
 #include <algorithm>
+#include <atomic>
 #include <charconv>
 #include <cstdlib>
 #include <filesystem>
@@ -15,9 +16,12 @@ namespace {
 
 constexpr const char* kWidth = "LP_NATIVE_VECTOR_WIDTH";
 constexpr const char* kCacheFolder = "MESA_SHADER_CACHE_DIR";
+constexpr const char* kNoCache = "MESA_SHADER_CACHE_DISABLE";
 constexpr int kFirstMesa = 25;
 
-// 0 where the text does not say.
+std::atomic<bool> isAllowed = false;
+
+// Mesa's major version, or 0 where the text names none.
 int mesaVersion(std::string_view info) {
     constexpr std::string_view kMesa = "Mesa ";
     int version = 0;
@@ -26,18 +30,13 @@ int mesaVersion(std::string_view info) {
     return version;
 }
 
-// Those of Ice Lake, Zen 4 and later. Earlier ones lower their clock for 512 bits.
-bool processorHasWideVectors() {
-#if defined(__x86_64__)
-    return __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512vbmi2");
-#else
-    return false;
-#endif
+bool isProcessor(const vk::raii::PhysicalDevice& device) {
+    return device.getProperties().deviceType == vk::PhysicalDeviceType::eCpu;
 }
 
 bool gains(const vk::raii::PhysicalDevice& device) {
     const vk::PhysicalDeviceProperties properties = device.getProperties();
-    if (properties.deviceType != vk::PhysicalDeviceType::eCpu || properties.apiVersion < VK_API_VERSION_1_2)
+    if (properties.apiVersion < VK_API_VERSION_1_2)
         return false;
     const auto chain =
         device.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceDriverProperties>();
@@ -47,7 +46,7 @@ bool gains(const vk::raii::PhysicalDevice& device) {
                               processorHasWideVectors());
 }
 
-// The folder where Mesa makes the one of its cache.
+// Where Mesa would put its cache, for users that have a home.
 std::optional<std::filesystem::path> mesaCacheHome() {
     if (const auto named = environmentPath(kCacheFolder))
         return named;
@@ -57,10 +56,10 @@ std::optional<std::filesystem::path> mesaCacheHome() {
     return home ? std::optional(*home / ".cache") : std::nullopt;
 }
 
-// A folder of that name where Mesa's cache is. None where it cannot be made.
+// Makes a folder of that name where Mesa would put its cache. None where that fails.
 std::optional<std::filesystem::path> makeCacheFolder(const std::string& name) {
     const std::optional<std::filesystem::path> home = mesaCacheHome();
-    if (!home || home->filename() == name) // set by the process that started this one
+    if (!home || home->filename() == name) // an earlier call, or the parent process, has made it
         return home;
     std::error_code error;
     std::filesystem::create_directories(*home / name, error);
@@ -69,14 +68,30 @@ std::optional<std::filesystem::path> makeCacheFolder(const std::string& name) {
 
 } // namespace
 
+bool processorHasWideVectors() {
+#if defined(__x86_64__)
+    return __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512vbmi2");
+#else
+    return false;
+#endif
+}
+
 bool gainsByWideVectors(std::string_view info, std::string_view name, bool processorHasThem) {
     return processorHasThem && mesaVersion(info) >= kFirstMesa &&
            name.find("256 bits") != std::string_view::npos;
 }
 
+void allowWideVectors() {
+    isAllowed = true;
+}
+
+bool mayUseWideVectors() {
+    return isAllowed && processorHasWideVectors() && !environmentVariable(kWidth) && mesaCacheHome();
+}
+
 bool gainsByWideVectors(const vk::raii::Instance& instance) {
-    return processorHasWideVectors() && !environmentVariable(kWidth) &&
-           std::ranges::any_of(vk::raii::PhysicalDevices(instance), gains);
+    const vk::raii::PhysicalDevices devices(instance);
+    return std::ranges::all_of(devices, isProcessor) && std::ranges::any_of(devices, gains);
 }
 
 void useWideVectors() {
@@ -86,11 +101,11 @@ void useWideVectors() {
 
 void keepKernelsByWidth() {
     const std::optional<std::string> width = environmentVariable(kWidth);
-    if (!width)
+    if (!width || environmentVariable(kNoCache) == "true")
         return;
     const auto folder = makeCacheFolder("lavapipe-" + *width + "-bits");
     if (!folder)
-        ::setenv("MESA_SHADER_CACHE_DISABLE", "true", 1);
+        ::setenv(kNoCache, "true", 1);
     else if (folder != environmentPath(kCacheFolder))
         ::setenv(kCacheFolder, folder->c_str(), 1);
 }

@@ -7,21 +7,32 @@
 
 namespace lavalight::gpu {
 
-// Whether a device is a lavapipe that runs kernels faster with 512 bits than with its 256: one of Mesa 25 and
-// later, on a processor of that width (docs/notes/performance.md has the figures). `info`: the driver's, as
-// "Mesa 25.0.7 (LLVM 19.1.7)"; `name`: the device's.
+// Whether the processor has AVX-512 as Ice Lake, Zen 4 and later ones do.
+[[nodiscard]] bool processorHasWideVectors();
+
+// Whether a device is a lavapipe that takes 256 bits and is faster with 512: one of Mesa 25 and later, on a
+// processor that has them. docs/notes/performance.md has the figures. `info`: the driver's, as "Mesa 25.0.7
+// (LLVM 19.1.7)"; `name`: the device's.
 [[nodiscard]] bool gainsByWideVectors(std::string_view info, std::string_view name, bool processorHasThem);
 
-// Whether a device of the instance gains by them, where nobody has decided the width for this process.
+// Lets instances decide on 512 bits. For programs that own their process: lavapipe reads the variable
+// whenever it lists or opens a device or compiles a kernel, so that the width holds for all its users in the
+// process, and for the programs that it starts.
+void allowWideVectors();
+
+// Whether they are allowed and the processor has them, and nobody has chosen a width.
+[[nodiscard]] bool mayUseWideVectors();
+
+// Whether a device of the instance gains by them. Not where it has a graphics card, since the folder of
+// keepKernelsByWidth() would be that of its driver, too.
 [[nodiscard]] bool gainsByWideVectors(const vk::raii::Instance& instance);
 
-// Decides on 512 bits for the rest of the process. lavapipe reads the variable each time that devices are
-// listed or opened, and has one width for all of them: a second width would spoil the kernels of the first.
+// Chooses 512 bits for the process. No device of lavapipe may be open.
 void useWideVectors();
 
-// Where a width was decided, by useWideVectors() or by the user, gives it a folder of Mesa's cache to itself.
-// Mesa looks up compiled code without its width. A kernel that calls texture code of another width hangs or
-// draws a wrong picture.
+// Where a width was chosen, by useWideVectors() or by the user, gives it a cache of Mesa's to itself. Mesa 25
+// keeps texture code apart from kernels and finds it whatever its width: a kernel that calls code of another
+// width crashes, does not end, or draws a wrong picture.
 void keepKernelsByWidth();
 
 } // namespace lavalight::gpu

@@ -13,11 +13,15 @@ class WaveBudget {
     static constexpr double kLongest = 1.0; // seconds
     static constexpr uint32_t kFewest = 4096;
     static constexpr uint32_t kFirstOnCpu = 1u << 18;
+    // Quick waves before a CPU gets larger ones. Each new page of memory costs a fault: the larger wave of a
+    // Cornell box pays for its pages within four.
+    static constexpr uint32_t kQuickOnCpu = 4;
 
     // Waves never have more than `most` slots, and the first ones fewer, until the device's speed is known:
     // much fewer on a GPU, whose watchdog may be near.
     WaveBudget(uint32_t most, bool isCpu)
-        : most_(most), slots_(std::min(most, isCpu ? kFirstOnCpu : kFewest)) {}
+        : most_(most), slots_(std::min(most, isCpu ? kFirstOnCpu : kFewest)),
+          quickBeforeMore_(isCpu ? kQuickOnCpu : 1) {}
 
     [[nodiscard]] uint32_t slots() const { return slots_; }
 
@@ -25,13 +29,15 @@ class WaveBudget {
     void took(double seconds) {
         if (seconds > kLongest)
             slots_ = std::max(slots_ / 2, std::min(most_, kFewest));
-        else if (seconds < kLongest / 4)
+        else if (seconds < kLongest / 4 && ++quick_ % quickBeforeMore_ == 0)
             slots_ = std::min(most_, slots_ > most_ / 2 ? most_ : 2 * slots_);
     }
 
   private:
     uint32_t most_;
     uint32_t slots_;
+    uint32_t quickBeforeMore_;
+    uint32_t quick_ = 0; // waves
 };
 
 } // namespace lavalight

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "gpu/wide_vectors.h"
 #include "support/environment_variable.h"
 #include "support/run_program.h"
 #include "support/temporary_folder.h"
@@ -103,6 +104,23 @@ TEST_F(Devices, ADriverThatIsNamedTakesThePlaceOfTheSystemsLavapipe) {
     const ProgramResult result = run({"devices"});
     EXPECT_EQ(result.exitCode, 0) << result.err;
     EXPECT_EQ(result.out, before);
+}
+
+// The driver's text ends with what the rule is asked: "llvmpipe Mesa 25.0.7 (LLVM 19.1.7)".
+TEST_F(Devices, LavapipeUsesWideVectorsWhereItGainsByThem) {
+    const auto listed = [&] { return json::parse(run({"devices", "--json"}).out); };
+    const json wide = listed();
+    const EnvironmentVariable width("LP_NATIVE_VECTOR_WIDTH", "256");
+    const json narrow = listed();
+    ASSERT_EQ(wide.size(), narrow.size());
+    if (wide.size() != 1 || narrow[0]["name"].get<std::string>().find("256 bits") == std::string::npos)
+        GTEST_SKIP() << "the one device is not a lavapipe";
+    const auto driver = narrow[0]["driver"].get<std::string>();
+    const bool gains =
+        gpu::gainsByWideVectors(driver.substr(driver.find("Mesa")), narrow[0]["name"].get<std::string>(),
+                                gpu::processorHasWideVectors());
+    const bool isWide = wide[0]["name"].get<std::string>().find("512 bits") != std::string::npos;
+    EXPECT_EQ(isWide, gains) << wide << narrow;
 }
 
 TEST_F(Devices, WhatIsNoDriverIsRefusedByName) {

@@ -46,6 +46,8 @@ TEST(WaveBudget, ACpuStartsWithAWaveOfTheUsualSize) {
 
 TEST(WaveBudget, WavesOfAQuickCpuGrowBeyondTheFirst) {
     EXPECT_EQ(WaveBudget(4 * kMost, true).slots(), WaveBudget::kFirstOnCpu);
+    EXPECT_EQ(run({4 * kMost, true}, 1e7, WaveBudget::kQuickOnCpu - 1).slots, WaveBudget::kFirstOnCpu);
+    EXPECT_EQ(run({4 * kMost, true}, 1e7, WaveBudget::kQuickOnCpu).slots, 2 * WaveBudget::kFirstOnCpu);
     EXPECT_EQ(run({4 * kMost, true}, 1e7, 100).slots, 4 * kMost);
     EXPECT_EQ(run({4 * kMost, true}, 9e5, 100).slots, WaveBudget::kFirstOnCpu) << "which takes 0.29 s";
 }
