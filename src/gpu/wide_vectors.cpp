@@ -48,17 +48,16 @@ bool gains(const vk::raii::PhysicalDevice& device) {
 
 // Where Mesa would put its cache, for users that have a home.
 std::optional<std::filesystem::path> mesaCacheHome() {
-    if (const auto named = environmentPath(kCacheFolder))
-        return named;
-    if (const auto cache = environmentPath("XDG_CACHE_HOME"))
-        return cache;
+    for (const char* variable : {kCacheFolder, "XDG_CACHE_HOME"})
+        if (auto named = environmentPath(variable))
+            return named;
     const auto home = environmentPath("HOME");
     return home ? std::optional(*home / ".cache") : std::nullopt;
 }
 
 // Makes a folder of that name where Mesa would put its cache. None where that fails.
 std::optional<std::filesystem::path> makeCacheFolder(const std::string& name) {
-    const std::optional<std::filesystem::path> home = mesaCacheHome();
+    std::optional<std::filesystem::path> home = mesaCacheHome();
     if (!home || home->filename() == name) // an earlier call, or the parent process, has made it
         return home;
     std::error_code error;

@@ -43,6 +43,7 @@ std::vector<Table> runDice(const LabDevice& lab, const LabOptions& options) {
          {"one die, sixfold with p = 0.2", kDieAtATime, 0.2},
          {fmt::format("one die, sixfold with p = {:.4f}", best), kDieAtATime, best}}};
     std::vector<EstimatorRow> rows;
+    rows.reserve(ways.size());
     for (const DiceWay& way : ways)
         rows.push_back(rowOf(way, kernel, options));
     Table table = estimatorTable("dice", "Mean of 6 * D1 + D2 of two dice, at equal numbers of rolls", rows,

@@ -42,6 +42,7 @@ Table spheres(const LabDevice& lab, const LabOptions& options) {
                                      {"best", bestLightProbability(kLarge, kSmall)},
                                      {"by power, swapped", 1.0 - byPower}}};
     std::vector<EstimatorRow> rows;
+    rows.reserve(picks.size());
     for (const Pick& pick : picks)
         rows.push_back(rowOf(pick, kernel, options));
     Table table = estimatorTable(

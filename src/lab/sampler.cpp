@@ -119,6 +119,7 @@ void addImages(Convergence& result, size_t sampler, const std::vector<std::vecto
     for (size_t pixel = 0; pixel < pixels; ++pixel)
         for (glm::length_t channel = 0; channel < 3; ++channel) {
             std::vector<double> values;
+            values.reserve(bySeed.size());
             for (const auto& images : bySeed)
                 values.push_back(images[level].pixels[pixel][channel]);
             const Moments m = momentsOf(values);

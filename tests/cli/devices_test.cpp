@@ -77,7 +77,7 @@ TEST_F(Devices, WithoutADriverThereIsOneLineAndExitOne) {
 // A driver that is not installed: the system's lavapipe under another name. The loader takes the library
 // itself or, where it is an older one, the manifest beside it.
 std::string namedDriver(const TemporaryFolder& folder) {
-    const std::string library = (folder / "driver.so").string();
+    std::string library = (folder / "driver.so").string();
     std::filesystem::create_symlink(kLavapipe, library);
     std::ofstream(folder / "driver.json")
         << R"({"file_format_version": "1.0.0", "ICD": {"api_version": "1.3.0", "library_path": "./driver.so"}})";
