@@ -117,7 +117,7 @@ SHARED_FUNCTION FilmPlane shapeOf(uint plane, uint asked) {
     FilmPlane shape;
     shape.components = 0u FILM_PLANES(FILM_PLANE_COMPONENTS);
     shape.isSigned = signOf(plane) == kWeighted ? asked >> 31u : signOf(plane);
-    // A plane that has none adds 0 or 0. NOLINTBEGIN(bugprone-branch-clone)
+    // Planes without squares make both branches 0. NOLINTBEGIN(bugprone-branch-clone)
     shape.hasSquares = 0u FILM_PLANES(FILM_PLANE_SQUARES);
     shape.isPerHit = 0u FILM_PLANES(FILM_PLANE_PER_HIT);
     // NOLINTEND(bugprone-branch-clone)

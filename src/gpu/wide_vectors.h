@@ -20,7 +20,7 @@ namespace lavalight::gpu {
 // process, and for the programs that it starts.
 void allowWideVectors();
 
-// Whether they are allowed and the processor has them, and nobody has chosen a width.
+// Whether 512 bits are allowed, the processor has them, and nobody has chosen a width.
 [[nodiscard]] bool mayUseWideVectors();
 
 // Whether a device of the instance gains by them. Not where it has a graphics card, since the folder of

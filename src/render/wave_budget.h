@@ -13,8 +13,8 @@ class WaveBudget {
     static constexpr double kLongest = 1.0; // seconds
     static constexpr uint32_t kFewest = 4096;
     static constexpr uint32_t kFirstOnCpu = 1u << 18;
-    // Quick waves before a CPU gets larger ones. Each new page of memory costs a fault: the larger wave of a
-    // Cornell box pays for its pages within four.
+    // Quick waves before a CPU gets larger ones. Each new page of memory costs a fault, which a short render
+    // does not get back.
     static constexpr uint32_t kQuickOnCpu = 4;
 
     // Waves never have more than `most` slots, and the first ones fewer, until the device's speed is known:

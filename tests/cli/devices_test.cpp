@@ -106,7 +106,7 @@ TEST_F(Devices, ADriverThatIsNamedTakesThePlaceOfTheSystemsLavapipe) {
     EXPECT_EQ(result.out, before);
 }
 
-// The driver's text ends with what the rule is asked: "llvmpipe Mesa 25.0.7 (LLVM 19.1.7)".
+// The rule takes the driver's text without its name, "llvmpipe Mesa 25.0.7 (LLVM 19.1.7)".
 TEST_F(Devices, LavapipeUsesWideVectorsWhereItGainsByThem) {
     const auto listed = [&] { return json::parse(run({"devices", "--json"}).out); };
     const json wide = listed();
